@@ -1,0 +1,50 @@
+"""The command table, and the one place where errors become a line and an exit code."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+
+import typer
+
+from nao_sim.errors import NaoSimError
+
+# command -> module of nao_sim.cli that defines a function of that name ('-' becomes '_')
+COMMANDS = {
+    "check": "check",
+    "gestures": "gestures",
+    "imitate": "imitate",
+}
+
+EXIT_ERROR = 2
+
+
+def _app(names: list[str]) -> typer.Typer:
+    """Build the command line; only the modules of ``names`` are imported."""
+    app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
+
+    @app.callback()
+    def _root() -> None:
+        """Gesture video in, a simulated NAO's imitation and its recording out."""
+
+    for name in names:
+        module = importlib.import_module(f"nao_sim.cli.{COMMANDS[name]}")
+        app.command(name)(getattr(module, name.replace("-", "_")))
+    return app
+
+
+def _user_errors() -> tuple[type[Exception], ...]:
+    from recognizer.errors import RecognizerError
+
+    return (NaoSimError, RecognizerError, OSError)
+
+
+def main() -> None:
+    """Run the command line; errors a user can mend are one line on standard error, exit code 2."""
+    asked = sys.argv[1] if len(sys.argv) > 1 else ""
+    names = [asked] if asked in COMMANDS else sorted(COMMANDS)
+    try:
+        _app(names)()
+    except _user_errors() as error:
+        typer.echo(f"nao-sim: {' '.join(str(error).split())}", err=True)
+        raise SystemExit(EXIT_ERROR) from None

@@ -1,0 +1,1 @@
+"""Where seeing and moving meet: imitation episodes and their storage."""

@@ -1,0 +1,1 @@
+"""Gesture files: loading, checking, exchanging."""

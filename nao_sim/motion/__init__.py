@@ -1,0 +1,1 @@
+"""Trajectories, whole-body kinematics, balance, walking, getting up."""

@@ -1,0 +1,1 @@
+"""Simulated people on video, and data sets of clips."""

@@ -1,0 +1,1 @@
+"""The simulated NAO: joints, motors, sensors, postures."""

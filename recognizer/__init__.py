@@ -1,0 +1,1 @@
+"""Gesture recognition on video: what did the person do?"""
