@@ -6,8 +6,6 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 DONE   := $(VENV)/.installed
-# A renderer without a display; see README, "Rendering".
-export MUJOCO_GL ?= egl
 
 .PHONY: setup demo test check clean
 
