@@ -1,0 +1,140 @@
+"""The feature database: a Parquet table of labelled vectors with provenance. It is the whole model of KNN."""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from recognizer.errors import DatabaseError
+
+IRRELEVANT = "irrelevant"  # family and label of motions that must not be answered
+_LEVELS = 65535  # features are stored in 16 bits of their own range
+
+
+@dataclasses.dataclass(frozen=True)
+class Database:
+    """Labelled feature vectors.
+
+    Attributes:
+        features: (n, d) float32.
+        labels: (n,) str, a gesture's name or "irrelevant".
+        families: (n,) str, "small", "large", "static" or "irrelevant".
+        actions: (n,) str, what exactly was done; equals the label except for irrelevant motions.
+        persons: (n,) str.
+        sources: (n,) str, the clip each row was made of.
+        names: (d,) names of the features.
+        method: name of the feature extractor.
+        version: its version; a database of another version is refused.
+        provenance: how it was made (command, data set, seeds, scores), JSON-able.
+        arrays: what was learned from the rows (projection, threshold …), by name.
+    """
+
+    features: np.ndarray
+    labels: np.ndarray
+    families: np.ndarray
+    actions: np.ndarray
+    persons: np.ndarray
+    sources: np.ndarray
+    names: tuple[str, ...]
+    method: str
+    version: int
+    provenance: dict[str, Any] = dataclasses.field(default_factory=dict)
+    arrays: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be learned from."""
+        n = len(self.labels)
+        columns = (self.families, self.actions, self.persons, self.sources)
+        if self.features.shape != (n, len(self.names)) or any(len(c) != n for c in columns):
+            raise DatabaseError(
+                f"database columns differ in length: {n} labels, features {self.features.shape}; train it again"
+            )
+        if n == 0:
+            raise DatabaseError("the database has no rows; train it on a data set with clips")
+        if not np.isfinite(self.features).all():
+            row = int(np.flatnonzero(~np.isfinite(self.features).all(axis=1))[0])
+            raise DatabaseError(
+                f"row {row} of the database ({self.sources[row]}) is not finite; train it again without that clip"
+            )
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.labels)
+
+    def take(self, rows: np.ndarray) -> Database:
+        """Return the rows of a mask or index array; what was learned from all rows is dropped."""
+        names = ("features", "labels", "families", "actions", "persons", "sources")
+        return dataclasses.replace(self, **{name: getattr(self, name)[rows] for name in names}, arrays={})
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the table atomically.
+
+        Raises:
+            DatabaseError: the place cannot be written.
+        """
+        low = self.features.min(axis=0).astype(np.float64)
+        span = np.maximum(self.features.max(axis=0) - low, 1e-12)
+        codes = np.round((self.features - low) / span * _LEVELS).astype(np.uint16)
+        vectors = pa.FixedSizeListArray.from_arrays(pa.array(codes.ravel()), codes.shape[1])
+        text = {name: pa.array(getattr(self, name).tolist(), pa.string()) for name in _TEXT}
+        header = {"method": self.method, "version": self.version, "names": self.names, "provenance": self.provenance}
+        packed = io.BytesIO()
+        arrays: dict[str, Any] = {"low": low, "span": span, **{f"_{k}": v for k, v in self.arrays.items()}}
+        np.savez_compressed(packed, **arrays)
+        table = pa.table({**text, "features": vectors})
+        table = table.replace_schema_metadata(
+            {b"recognizer": json.dumps(header).encode(), b"arrays": packed.getvalue()}
+        )
+        target = Path(path)
+        temporary = target.with_name(f".{target.name}.{os.getpid()}")
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            pq.write_table(table, temporary, compression="zstd", compression_level=19, use_dictionary=list(_TEXT))
+            os.replace(temporary, target)
+        except OSError as error:
+            temporary.unlink(missing_ok=True)
+            raise DatabaseError(f"cannot write {target}: {error.strerror or error}; choose another place") from None
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Database:
+        """Read a table that :meth:`save` wrote; nothing in it is executed.
+
+        Raises:
+            DatabaseError: missing, not such a table, or damaged.
+        """
+        file = Path(path)
+        if not file.is_file():
+            raise DatabaseError(f"{file}: no such database; make one with 'nao-sim train DATASET --out {file.name}'")
+        try:
+            table = pq.read_table(file)
+            meta = table.schema.metadata or {}
+            header = json.loads(meta[b"recognizer"])
+            with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
+                arrays = {name: packed[name] for name in packed.files}
+            codes = table["features"].combine_chunks().flatten().to_numpy().reshape(len(table), len(header["names"]))
+            text = {name: np.array(table[name].to_pylist(), dtype=str) for name in _TEXT}
+            features = (codes / _LEVELS * arrays.pop("span") + arrays.pop("low")).astype(np.float32)
+        except (pa.ArrowException, KeyError, ValueError, OSError, EOFError) as error:
+            raise DatabaseError(f"{file} is not a feature database ({type(error).__name__}); train it again") from None
+        learned = {name[1:]: value for name, value in arrays.items()}
+        names = tuple(header["names"])
+        return cls(
+            features,
+            **text,
+            names=names,
+            method=header["method"],
+            version=header["version"],
+            provenance=header["provenance"],
+            arrays=learned,
+        )
+
+
+_TEXT = ("labels", "families", "actions", "persons", "sources")

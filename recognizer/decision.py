@@ -1,0 +1,94 @@
+"""From neighbours to an answer or a rejection; the same for every method."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from recognizer.database import IRRELEVANT, Database
+from recognizer.neighbours import votes_of
+
+
+@dataclasses.dataclass(frozen=True)
+class Neighbour:
+    """One row of the database near the clip."""
+
+    label: str
+    action: str
+    person: str
+    source: str
+    distance: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Decision:
+    """What the neighbours say.
+
+    Attributes:
+        label: the gesture, None when rejected.
+        nearest: the gesture with most votes even when rejected; None when only irrelevant motion is near.
+        family: family of ``nearest``, or "irrelevant".
+        rejected: True when no gesture of the vocabulary was seen.
+        reason: why it was rejected, empty otherwise.
+        distance: distance to the nearest row with the winning label.
+        threshold: distance beyond which a gesture is rejected.
+        votes: label -> share of the votes.
+        neighbours: nearest first.
+    """
+
+    label: str | None
+    nearest: str | None
+    family: str
+    rejected: bool
+    reason: str
+    distance: float
+    threshold: float
+    votes: dict[str, float]
+    neighbours: tuple[Neighbour, ...]
+
+
+def decide(
+    database: Database,
+    rows: np.ndarray,
+    distances: np.ndarray,
+    k: int,
+    threshold: float,
+    vote: str = "majority",
+    power: float = 1.0,
+) -> Decision:
+    """Vote among the nearest rows and reject what is irrelevant or too far.
+
+    Args:
+        database: where the rows are.
+        rows: indices of the nearest rows, nearest first.
+        distances: their distances, ascending.
+        k: how many of them vote.
+        threshold: largest distance that is answered.
+        vote: "majority" or "distance".
+        power: n of 1/dⁿ.
+    """
+    labels, targets = np.unique(database.labels[rows[:k]], return_inverse=True)
+    votes = votes_of(distances[None, :k], targets[None], len(labels), vote, power)[0]
+    shares = {str(label): float(v) for label, v in zip(labels, votes / votes.sum(), strict=True)}
+    winner = str(labels[int(np.argmax(votes))])
+    first = int(np.flatnonzero(database.labels[rows] == winner)[0])
+    distance = float(distances[first])
+    neighbours = tuple(_neighbour(database, int(row), float(d)) for row, d in zip(rows, distances, strict=True))
+    if winner == IRRELEVANT:
+        action = str(database.actions[rows[first]])
+        reason = f"nearest is irrelevant motion ({action}) at {distance:.3g}"
+    elif distance > threshold:
+        reason = f"nearest is {winner} at distance {distance:.3g}, beyond {threshold:.3g}"
+    else:
+        reason = ""
+    nearest = None if winner == IRRELEVANT else winner
+    family = str(database.families[rows[first]])
+    label = None if reason else winner
+    return Decision(label, nearest, family, bool(reason), reason, distance, threshold, shares, neighbours)
+
+
+def _neighbour(database: Database, row: int, distance: float) -> Neighbour:
+    columns = (database.labels, database.actions, database.persons, database.sources)
+    label, action, person, source = (str(column[row]) for column in columns)
+    return Neighbour(label, action, person, source, distance)

@@ -1,0 +1,130 @@
+"""The answer to a clip, with the evidence for it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import itertools
+import math
+from typing import Any
+
+import numpy as np
+
+from recognizer.amplitude import Amplitude, MovingRegions
+from recognizer.decision import Decision, Neighbour
+from recognizer.difference import Ellipse, difference_image, ellipses
+from recognizer.key_frames import equal_motion_frames
+from recognizer.samples import Sample
+
+
+class Evidence:
+    """Pictures and numbers behind an answer, worked out when asked for.
+
+    Attributes:
+        samples: the frames that were looked at, in order, at most 10 a second.
+        regions: moving regions of all samples but the first.
+    """
+
+    def __init__(self, samples: list[Sample], regions: list[MovingRegions]) -> None:
+        self.samples = samples
+        self.regions = regions
+
+    @functools.cached_property
+    def key_samples(self) -> list[Sample]:
+        """The least correlated pair of key frames, then the six key frames of the five states."""
+        from recognizer.thesis import small_pair
+
+        greys = [sample.grey for sample in self.samples]
+        chosen = [*small_pair(greys), *equal_motion_frames(greys)]
+        return [self.samples[int(i)] for i in chosen]
+
+    @property
+    def key_frames(self) -> list[int]:
+        """Frame numbers in the source of :attr:`key_samples`."""
+        return [sample.index for sample in self.key_samples]
+
+    @property
+    def key_images(self) -> list[np.ndarray]:
+        """Pictures of :attr:`key_samples`, (h, w, 3) uint8 BGR."""
+        return [sample.image for sample in self.key_samples]
+
+    @functools.cached_property
+    def difference_images(self) -> list[np.ndarray]:
+        """Difference image of the pair, then of the five states, (h, w) uint8."""
+        pair, states = self.key_samples[:2], self.key_samples[2:]
+        pairs = [tuple(pair), *itertools.pairwise(states)]
+        return [difference_image(a.grey, b.grey) for a, b in pairs]
+
+    @functools.cached_property
+    def ellipses(self) -> list[list[Ellipse]]:
+        """One or two ellipses of each difference image (none without motion)."""
+        return [ellipses(image) for image in self.difference_images]
+
+    @property
+    def boxes(self) -> list[np.ndarray]:
+        """For each sample, (n, 4) x, y, width, height of what moves, as fractions of the image."""
+        return [np.zeros((0, 4)), *(region.boxes for region in self.regions)]
+
+    @property
+    def centroid_path(self) -> np.ndarray:
+        """(n, 2) centroid of motion of each sample as fractions of the image, NaN where nothing moves."""
+        return np.array([(math.nan, math.nan), *(region.centroid for region in self.regions)])
+
+
+@dataclasses.dataclass(frozen=True)
+class Recognition:
+    """What the person did, or why it is none of the known gestures.
+
+    Attributes:
+        label: the gesture, None when rejected.
+        nearest: the best guess even when rejected; None when it was irrelevant motion.
+        family: "small", "large", "static" or "irrelevant".
+        rejected: no gesture of the vocabulary.
+        reason: why rejected, with the distance; empty otherwise.
+        distance: to the nearest database row of the winning label.
+        threshold: distance beyond which a gesture is rejected.
+        votes: label -> share of the votes.
+        neighbours: nearest rows of the database, nearest first.
+        amplitude: small or large by the path of motion; None for a photo.
+        start, end: seconds of the clip that the answer is about.
+        method: name of the feature method.
+        source: where the frames came from.
+        warnings: what was odd (moving camera, cut, no motion, frame rate of the header …).
+        timings: seconds spent, by stage.
+        evidence: pictures and numbers behind the answer; None for a photo.
+    """
+
+    label: str | None
+    nearest: str | None
+    family: str
+    rejected: bool
+    reason: str
+    distance: float
+    threshold: float
+    votes: dict[str, float]
+    neighbours: tuple[Neighbour, ...]
+    amplitude: Amplitude | None
+    start: float
+    end: float
+    method: str
+    source: str
+    warnings: tuple[str, ...] = ()
+    timings: dict[str, float] = dataclasses.field(default_factory=dict)
+    evidence: Evidence | None = dataclasses.field(default=None, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, decision: Decision, **rest: Any) -> Recognition:
+        """Make a recognition from a decision and everything the decision does not know."""
+        fields = {f.name: getattr(decision, f.name) for f in dataclasses.fields(decision)}
+        return cls(**fields, **rest)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the pictures, as plain JSON-able values."""
+        out = {
+            f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in ("evidence", "amplitude")
+        }
+        out["neighbours"] = [dataclasses.asdict(n) for n in self.neighbours]
+        out["warnings"] = list(self.warnings)
+        if self.amplitude is not None:
+            out["amplitude"] = {**dataclasses.asdict(self.amplitude), "path": self.amplitude.path.round(4).tolist()}
+        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in out.items()}

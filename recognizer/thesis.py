@@ -1,0 +1,146 @@
+"""The thesis's own way, kept as a reproducible baseline: vectors of chapter 2 under the routing of chapter 3.
+
+Small gestures: the least correlated pair of key frames, one 12-element ellipse vector, a size rule for
+nodding and shaking the head (S11). Large gestures: six key frames, five consecutive states, 60 elements (S13).
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from recognizer.amplitude import amplitude
+from recognizer.database import IRRELEVANT, Database
+from recognizer.decision import Decision, decide
+from recognizer.difference import VECTOR_NAMES, difference_image, ellipse_vector, ellipses
+from recognizer.key_frames import equal_motion_frames, key_frames, least_correlated_pair
+from recognizer.neighbours import NeighbourClassifier
+from recognizer.track import Track
+
+METHOD = "thesis"
+VERSION = 1
+STATES = 5
+COAXIAL = ("yes", "no")
+_N = len(VECTOR_NAMES)
+NAMES = (
+    "transition", "extent", "size",
+    *VECTOR_NAMES,
+    *(f"state{s}_{name}" for s in range(1, STATES + 1) for name in VECTOR_NAMES),
+)  # fmt: skip
+_SMALL = slice(3, 3 + _N)
+_LARGE = slice(3 + _N, 3 + _N + STATES * _N)
+
+
+def small_pair(greys: list[np.ndarray]) -> tuple[int, int]:
+    """Return the two key frames of a small gesture as positions in ``greys``, the earlier first."""
+    keys = key_frames(greys)
+    i, j = least_correlated_pair([greys[k] for k in keys])
+    return int(keys[i]), int(keys[j])
+
+
+def features(track: Track) -> np.ndarray:
+    """Return the thesis's vector of a clip, (75,): amplitude, size of the motion, small and large vectors."""
+    greys = [sample.grey for sample in track.samples]
+    height, width = greys[0].shape
+    routed = amplitude(track.regions, (width, height), "first_to_last")
+    i, j = small_pair(greys)
+    difference = difference_image(greys[i], greys[j])
+    states = equal_motion_frames(greys, STATES + 1)
+    large = [ellipse_vector(ellipses(difference_image(greys[a], greys[b]))) for a, b in itertools.pairwise(states)]
+    size = float((difference > 0).mean())
+    return np.concatenate([[routed.transition, routed.extent, size], ellipse_vector(ellipses(difference)), *large])
+
+
+def size_threshold(low: np.ndarray, high: np.ndarray) -> float:
+    """Return the size between two samples of sizes that tells most of them apart (low ones below it)."""
+    values = np.unique(np.concatenate([low, high]))
+    if len(values) < 2:
+        return float(values[0]) if len(values) else 0.0
+    cuts = (values[:-1] + values[1:]) / 2
+    # Balanced: both samples count the same, however many clips each has.
+    right = [np.mean(low < cut) if len(low) else 0 for cut in cuts]
+    wrong = [np.mean(high < cut) if len(high) else 0 for cut in cuts]
+    return float(cuts[int(np.argmax(np.array(right) - np.array(wrong)))])
+
+
+class ThesisModel:
+    """KNN of each family over a database of thesis vectors, with the two size rules and a distance limit."""
+
+    def __init__(self, n_neighbors: int = 1, rule: str = "whole_path") -> None:
+        self.n_neighbors = n_neighbors
+        self.rule = rule
+
+    def fit(self, database: Database) -> ThesisModel:
+        """Learn routing threshold, size thresholds, and the distance that 97 % of known gestures stay within."""
+        self.database = database
+        transitions = database.features[:, 0 if self.rule == "first_to_last" else 1]
+        self.route_ = size_threshold(
+            transitions[database.families == "small"], transitions[database.families == "large"]
+        )
+        size = database.features[:, 2]
+        coaxial = np.isin(database.labels, COAXIAL)
+        self.coaxial_ = size_threshold(size[coaxial], size[(database.families == "small") & ~coaxial])
+        yes, no = size[database.labels == "yes"], size[database.labels == "no"]
+        self.yes_below_no_ = bool(len(yes) == 0 or len(no) == 0 or np.median(yes) <= np.median(no))
+        self.yes_no_ = size_threshold(yes, no) if self.yes_below_no_ else size_threshold(no, yes)
+        self.limits_ = {family: self._limit(family) for family in ("small", "large")}
+        return self
+
+    def _rows(self, family: str, among: set[str] | None = None) -> np.ndarray:
+        keep = self.database.families == family
+        if among is not None:
+            keep &= np.isin(self.database.labels, list(among))
+        return np.flatnonzero(keep)
+
+    def _limit(self, family: str, false_rejection: float = 0.03) -> float:
+        rows = self._rows(family)
+        persons = self.database.persons[rows]
+        if len(np.unique(persons)) < 2:
+            return float("inf")
+        X = self.database.features[rows][:, _SMALL if family == "small" else _LARGE]
+        knn = NeighbourClassifier(1).fit(X, self.database.labels[rows])
+        distances, order = knn.kneighbors(X, len(X))
+        other = persons[order] != persons[:, None]
+        same = self.database.labels[rows][order] == self.database.labels[rows][:, None]
+        nearest = np.where(other & same, distances, np.inf).min(axis=1)
+        return (
+            float(np.quantile(nearest[np.isfinite(nearest)], 1 - false_rejection))
+            if np.isfinite(nearest).any()
+            else float("inf")
+        )
+
+    def route(self, vector: np.ndarray) -> str:
+        """Return "small" or "large" for a vector by its centroid transition."""
+        return "large" if vector[0 if self.rule == "first_to_last" else 1] > self.route_ else "small"
+
+    def decide(self, vector: np.ndarray, among: set[str] | None = None) -> Decision:
+        """Route a vector and name it; ``among`` narrows the labels."""
+        families = [self.route(vector)]
+        rows = self._rows(families[0], among)
+        if len(rows) == 0:  # nothing of that family is allowed in this context
+            families = ["large" if families[0] == "small" else "small"]
+            rows = self._rows(families[0], among)
+        columns = _SMALL if families[0] == "small" else _LARGE
+        if families[0] == "small" and vector[2] < self.coaxial_:
+            label = "yes" if (vector[2] < self.yes_no_) == self.yes_below_no_ else "no"
+            coaxial = rows[self.database.labels[rows] == label]
+            rows = coaxial if len(coaxial) else rows
+        elif families[0] == "small":
+            other = rows[~np.isin(self.database.labels[rows], COAXIAL)]
+            rows = other if len(other) else rows
+        knn = NeighbourClassifier(self.n_neighbors).fit(
+            self.database.features[rows][:, columns], self.database.labels[rows]
+        )
+        distances, order = knn.kneighbors(vector[None, columns], min(len(rows), max(5, self.n_neighbors)))
+        return decide(self.database, rows[order[0]], distances[0], self.n_neighbors, self.limits_[families[0]])
+
+    @property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Nothing is stored beside the rows: everything is found anew from them."""
+        return {}
+
+    @staticmethod
+    def trainable(database: Database) -> Database:
+        """The thesis has no class of irrelevant motion; rows of it are left out."""
+        return database.take(database.labels != IRRELEVANT)
