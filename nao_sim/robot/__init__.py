@@ -1,1 +1,38 @@
-"""The simulated NAO: joints, motors, sensors, postures."""
+"""The NAO: model, joints, motors, sensors, postures, and the class that commands it."""
+
+from nao_sim.robot.errors import (
+    AngleRangeError,
+    RenderError,
+    RobotError,
+    TargetError,
+    UnknownNameError,
+    UnstableError,
+)
+from nao_sim.robot.joints import ACTUATED, BODY, CHAINS, Joint, JointTable, joint_table, resolve
+from nao_sim.robot.model import model_spec
+from nao_sim.robot.nao import CONTROL_PERIOD_S, Nao
+from nao_sim.robot.postures import Posture, posture, postures
+from nao_sim.robot.sensors import SensorReadings
+
+__all__ = [
+    "ACTUATED",
+    "BODY",
+    "CHAINS",
+    "CONTROL_PERIOD_S",
+    "AngleRangeError",
+    "Joint",
+    "JointTable",
+    "Nao",
+    "Posture",
+    "RenderError",
+    "RobotError",
+    "SensorReadings",
+    "TargetError",
+    "UnknownNameError",
+    "UnstableError",
+    "joint_table",
+    "model_spec",
+    "posture",
+    "postures",
+    "resolve",
+]

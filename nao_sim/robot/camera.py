@@ -1,0 +1,58 @@
+"""Pictures from the robot's cameras, or from beside it, without a display."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from nao_sim.robot.errors import RenderError, UnknownNameError
+
+WIDTH_PX, HEIGHT_PX = 640, 480
+"""The robot's cameras (thesis app. 1)."""
+
+RATE_HZ = 30.0
+"""Their image rate."""
+
+_HINT = "set MUJOCO_GL=egl (libegl1 libgl1-mesa-dri) or MUJOCO_GL=osmesa (libosmesa6)"
+
+
+class Cameras:
+    """Renders the cameras of one model; the GL context is made at the first picture."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self._model = model
+        self._renderers: dict[tuple[int, int], mujoco.Renderer] = {}
+
+    @property
+    def names(self) -> list[str]:
+        """The cameras of the model, the scene's own included."""
+        return [self._model.camera(k).name for k in range(self._model.ncam)]
+
+    def render(
+        self, data: mujoco.MjData, camera: str | mujoco.MjvCamera, width: int, height: int, shadows: bool
+    ) -> np.ndarray:
+        """Return one ``(height, width, 3)`` uint8 RGB picture; see :meth:`nao_sim.robot.Nao.camera`."""
+        if isinstance(camera, str) and camera not in self.names:
+            raise UnknownNameError("camera", camera, self.names)
+        renderer = self._renderer(width, height)
+        renderer.update_scene(data, camera)
+        # The shadow map is most of the cost of a picture in software.
+        renderer.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = shadows
+        return renderer.render().copy()
+
+    def _renderer(self, width: int, height: int) -> Any:
+        key = (width, height)
+        if key not in self._renderers:
+            try:
+                self._renderers[key] = mujoco.Renderer(self._model, height, width)
+            except Exception as error:  # each GL platform fails in its own way
+                raise RenderError(f"no {width}x{height} picture: {error}; {_HINT}") from error
+        return self._renderers[key]
+
+    def close(self) -> None:
+        """Free the GL contexts."""
+        for renderer in self._renderers.values():
+            renderer.close()
+        self._renderers.clear()

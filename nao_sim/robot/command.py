@@ -1,0 +1,105 @@
+"""The command layer: what a target goes through before it reaches a motor.
+
+NAOqi's order: range check, anti-collision tables, then a set-point every 20 ms that never runs faster than the motor's
+nominal speed. The motor boards interpolate between set-points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nao_sim.robot.anti_collision import clamp_pairs, hold_pairs
+from nao_sim.robot.errors import AngleRangeError, TargetError
+from nao_sim.robot.joints import ACTUATED, joint_table, resolve
+
+TOLERANCE_RAD = 1e-9
+"""Rounding that a range check forgives; the angle is then put exactly on the limit."""
+
+
+@lru_cache(maxsize=256)
+def _actuators(names: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Return, for joint or chain names, the actuator rows and the positions of their values in the caller's list."""
+    joints = resolve(names)
+    followers = {j.name: j.follows for j in joint_table().joints if j.follows is not None}
+    rows, places = [], []
+    for place, name in enumerate(joints):
+        leader = followers.get(name, name)
+        # One motor turns both HipYawPitch joints; as in NAOqi the left value counts when both are given.
+        if leader != name and leader in joints:
+            continue
+        rows.append(ACTUATED.index(leader))
+        places.append(place)
+    return np.array(rows), np.array(places)
+
+
+class CommandLayer:
+    """Targets and set-points of the 25 motors.
+
+    Attributes:
+        targets: ``(25,)`` where the joints are asked to go, inside ranges and tables.
+        setpoint: ``(25,)`` what the motors are told now, on its rate-limited way to the targets.
+        low, high: ``(25,)`` the joint ranges.
+        max_speed: ``(25,)`` the motors' nominal speed, rad/s.
+    """
+
+    def __init__(self, limits: str, period: float) -> None:
+        table = joint_table().select(ACTUATED)
+        self.low, self.high = table.range_rad(limits).T
+        self.max_speed = table.max_speed_rad("nominal")
+        self._step = self.max_speed * period
+        self._limits = limits
+        self.targets = np.zeros(len(ACTUATED))
+        self.setpoint = np.zeros(len(ACTUATED))
+
+    def reset(self, angles: np.ndarray) -> None:
+        """Start from ``(25,)`` angles: targets and set-point alike."""
+        self.targets = clamp_pairs(np.clip(angles, self.low, self.high))
+        self.setpoint = self.targets.copy()
+
+    def set(self, names: str | Sequence[str], angles: ArrayLike) -> None:
+        """Set the targets of some joints, rad (hands: open fraction).
+
+        Args:
+            names: a joint, a chain (``"Head"``, ``"LArm"``, ``"Body"`` ...), or a list of them.
+            angles: one number for all of them, or one per joint.
+
+        Raises:
+            UnknownNameError: no such joint or chain.
+            TargetError: a wrong number of angles, or one that is not finite.
+            AngleRangeError: an angle beyond its joint's range. Nothing is changed then.
+        """
+        rows, places = _actuators((names,) if isinstance(names, str) else tuple(names))
+        joints = resolve(names)
+        values = np.asarray(angles, dtype=float)
+        if values.ndim == 0:
+            values = np.full(len(joints), float(values))
+        if values.shape != (len(joints),):
+            raise TargetError(f"{values.size} angles for {len(joints)} joints ({', '.join(joints)}); give one each")
+        targets = self.targets.copy()
+        targets[rows] = values[places]
+        self.set_all(targets)
+
+    def set_all(self, targets: np.ndarray) -> None:
+        """Set all ``(25,)`` targets at once, in ``ACTUATED`` order; raises as :meth:`set` does."""
+        if np.shape(targets) != self.targets.shape:
+            raise TargetError(f"targets have shape {np.shape(targets)}; give {self.targets.shape}, one per motor")
+        if not np.isfinite(targets).all():
+            name = ACTUATED[int(np.flatnonzero(~np.isfinite(targets))[0])]
+            raise TargetError(f"{name}: the target is not a finite number; give radians")
+        outside = (targets < self.low - TOLERANCE_RAD) | (targets > self.high + TOLERANCE_RAD)
+        if outside.any():
+            k = int(np.flatnonzero(outside)[0])
+            raise AngleRangeError(ACTUATED[k], float(targets[k]), float(self.low[k]), float(self.high[k]))
+        self.targets = clamp_pairs(np.clip(targets, self.low, self.high))
+
+    def advance(self) -> np.ndarray:
+        """Move the set-point one control period towards the targets and return it, ``(25,)``."""
+        previous = self.setpoint
+        setpoint = previous + np.clip(self.targets - previous, -self._step, self._step)
+        hold_pairs(previous, setpoint, self.targets, self._step)
+        self.setpoint = setpoint
+        return setpoint

@@ -1,0 +1,48 @@
+"""Is the robot down? Asked every control period, so a fall is known within 20 ms."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+TILT_RAD = np.radians(60)
+"""A torso that leans further is falling even before it touches: no gesture leans so far with the feet flat."""
+
+_FEET = ("l_foot", "r_foot")
+
+
+class FallDetector:
+    """Tells standing from lying: nothing but the feet may bear on the world, and the torso must be upright.
+
+    After a reset into a posture that sits or lies by design the robot is not called fallen; from the moment it has
+    stood on its feet alone, it can fall.
+    """
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        robot = {b for b in range(model.nbody) if model.body_rootid[b] == model.body("torso").id}
+        feet = {model.body(name).id for name in _FEET}
+        kind = [2 if b in feet else 1 if b in robot else 0 for b in model.geom_bodyid]
+        # World geoms 0, the robot's feet 2, the rest of the robot 1: a body contact is a pair of 0 and 1.
+        self._kind = np.array(kind)
+        self._torso = model.body("torso").id
+        self._upright = float(np.cos(TILT_RAD))
+        self._fixed = model.joint(0).type[0] != mujoco.mjtJoint.mjJNT_FREE
+        self._armed = True
+
+    def reset(self, stands: bool) -> None:
+        """Start anew; ``stands`` is False for a posture that sits or lies by design."""
+        self._armed = stands
+
+    def fallen(self, data: mujoco.MjData) -> bool:
+        """Return whether the robot is down now."""
+        if self._fixed:
+            return False
+        down = bool(data.xmat[self._torso, 8] < self._upright) or self._body_contact(data)
+        self._armed = self._armed or not down
+        return down and self._armed
+
+    def _body_contact(self, data: mujoco.MjData) -> bool:
+        if data.ncon == 0:
+            return False
+        kinds = self._kind[data.contact.geom]
+        return bool(((kinds.min(axis=1) == 0) & (kinds.max(axis=1) == 1)).any())

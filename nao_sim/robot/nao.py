@@ -1,0 +1,205 @@
+"""The robot: load, reset to a posture, set targets, step, read sensors and cameras."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike
+
+from nao_sim.robot.camera import HEIGHT_PX, WIDTH_PX, Cameras
+from nao_sim.robot.command import CommandLayer
+from nao_sim.robot.errors import UnstableError
+from nao_sim.robot.falling import FallDetector
+from nao_sim.robot.joints import ACTUATED, BODY
+from nao_sim.robot.model import model_spec
+from nao_sim.robot.placement import place
+from nao_sim.robot.postures import posture as posture_named
+from nao_sim.robot.sensors import SensorReader, SensorReadings
+
+CONTROL_PERIOD_S = 0.02
+"""NAOqi's cycle: a set-point for every motor each 20 ms (thesis app. 1)."""
+
+
+class Nao:
+    """A NAO in MuJoCo, commanded like the real one.
+
+    Args:
+        limits: ``"thesis"`` (table A1-1), ``"v5"`` (H25 V5.0) or ``"envelope"`` (what both allow).
+        mass: ``"documented"`` (5.305 kg) or ``"thesis"`` (4.3 kg).
+        base: ``"free"``, or ``"fixed"`` with the torso hung up.
+        fingers: False keeps fingertips and thumbs rigid.
+        posture: the posture to start in.
+        model: a compiled scene of one's own that contains the robot (see :func:`nao_sim.robot.model_spec`); the
+            other arguments but ``limits`` and ``posture`` are then its own affair.
+
+    Attributes:
+        model, data: MuJoCo's, to look at; command through the methods.
+
+    Example:
+        >>> nao = Nao()
+        >>> nao.set_angles("HeadYaw", 0.5)
+        >>> nao.step(50)
+        >>> bool(abs(nao.angles[0] - 0.5) < 0.01)
+        True
+    """
+
+    def __init__(
+        self,
+        limits: str = "thesis",
+        mass: str = "documented",
+        base: str = "free",
+        fingers: bool = True,
+        posture: str = "StandInit",
+        model: mujoco.MjModel | None = None,
+    ) -> None:
+        self.model = model if model is not None else model_spec(limits, mass, base, fingers).compile()
+        self.data = mujoco.MjData(self.model)
+        self.limits = limits
+        self._command = CommandLayer(limits, CONTROL_PERIOD_S)
+        self._substeps = round(CONTROL_PERIOD_S / self.model.opt.timestep)
+        ids = [self.model.joint(name).id for name in ACTUATED]
+        self._qpos = self.model.jnt_qposadr[ids]
+        self._dof = self.model.jnt_dofadr[ids]
+        self._ctrl = np.array([self.model.actuator(name).id for name in ACTUATED])
+        self._torso = self.model.body("torso").id
+        self._sensors = SensorReader(self.model)
+        self._falls = FallDetector(self.model)
+        self._cameras = Cameras(self.model)
+        self.reset(posture)
+
+    @property
+    def control_period(self) -> float:
+        """Seconds between set-points."""
+        return CONTROL_PERIOD_S
+
+    @property
+    def time(self) -> float:
+        """Simulated seconds since the reset."""
+        return float(self.data.time)
+
+    def reset(self, posture: str = "StandInit") -> None:
+        """Put the robot into an official posture, at rest, targets included.
+
+        Raises:
+            UnknownNameError: no such posture; the message names the nearest.
+        """
+        wanted = posture_named(posture)
+        place(self.model, self.data, wanted, self.limits)
+        angles = wanted.clamped(self.limits)
+        self._command.reset(angles[[BODY.index(name) for name in ACTUATED]])
+        self.data.ctrl[self._ctrl] = self._command.setpoint
+        self._falls.reset(stands=wanted.torso is None)
+        mujoco.mj_forward(self.model, self.data)
+
+    def set_angles(self, names: str | Sequence[str], angles_rad: ArrayLike) -> None:
+        """Ask joints to go to angles, as fast as their motors' nominal speed allows.
+
+        Args:
+            names: a joint, a chain (``Head``, ``LArm``, ``RArm``, ``LLeg``, ``RLeg``, ``Arms``, ``Legs``, ``Body``,
+                ``JointActuators``), or a list of them.
+            angles_rad: one number for all, or one per joint; hands take 0 (closed) to 1 (open).
+
+        Raises:
+            UnknownNameError: no such joint; the message names the nearest.
+            AngleRangeError: an angle beyond its range; the message has joint, value and both bounds.
+            TargetError: not finite, or not one number per joint.
+        """
+        self._command.set(names, angles_rad)
+
+    def set_targets(self, targets: np.ndarray) -> None:
+        """Set all ``(25,)`` targets in ``ACTUATED`` order; the fast form of :meth:`set_angles`, same checks."""
+        self._command.set_all(targets)
+
+    @property
+    def targets(self) -> np.ndarray:
+        """``(25,)`` where the joints are asked to go, rad (hands: open fraction), inside ranges and tables."""
+        return self._command.targets.copy()
+
+    @property
+    def setpoint(self) -> np.ndarray:
+        """``(25,)`` what the motors are told now, on its rate-limited way to the targets."""
+        return self._command.setpoint.copy()
+
+    @property
+    def angles(self) -> np.ndarray:
+        """``(25,)`` measured joint angles, rad (hands: open fraction)."""
+        return self.data.qpos[self._qpos]
+
+    @property
+    def velocities(self) -> np.ndarray:
+        """``(25,)`` measured joint velocities, rad/s."""
+        return self.data.qvel[self._dof]
+
+    @property
+    def torques(self) -> np.ndarray:
+        """``(25,)`` motor torques at the joints, Nm."""
+        return self.data.actuator_force[self._ctrl]
+
+    @property
+    def torso_pose(self) -> np.ndarray:
+        """``(7,)`` position in m and orientation (w, x, y, z) of the torso in the world."""
+        return np.concatenate([self.data.xpos[self._torso], self.data.xquat[self._torso]])
+
+    @property
+    def fsr(self) -> np.ndarray:
+        """``(8,)`` foot forces in N, left foot first: front left, front right, rear left, rear right."""
+        return self._sensors.fsr(self.data)
+
+    @property
+    def fallen(self) -> bool:
+        """Whether the robot is down: something but its feet bears on the world, or the torso leans beyond 60°."""
+        return self._falls.fallen(self.data)
+
+    def step(self, n: int = 1) -> None:
+        """Advance ``n`` control periods of 20 ms.
+
+        Raises:
+            UnstableError: the state is no longer finite; reset, and look at what was commanded.
+        """
+        model, data, ctrl = self.model, self.data, self._ctrl
+        fractions = np.arange(1, self._substeps + 1) / self._substeps
+        for _ in range(n):
+            start = data.ctrl[ctrl]
+            change = self._command.advance() - start
+            # The motor boards interpolate between two set-points.
+            for fraction in fractions:
+                data.ctrl[ctrl] = start + fraction * change
+                mujoco.mj_step(model, data)
+            if data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number or not np.isfinite(data.qpos).all():
+                raise UnstableError(f"the simulation became unstable at {data.time:.3f} s; reset and check the targets")
+
+    def sensors(self) -> SensorReadings:
+        """Return the inertial unit, foot forces, bumpers, touch sensors and sonars now."""
+        return self._sensors.read(self.data)
+
+    def camera(
+        self,
+        name: str | mujoco.MjvCamera = "CameraTop",
+        width: int = WIDTH_PX,
+        height: int = HEIGHT_PX,
+        shadows: bool = False,
+    ) -> np.ndarray:
+        """Return what a camera sees, ``(height, width, 3)`` uint8 RGB.
+
+        Args:
+            name: ``"CameraTop"``, ``"CameraBottom"``, a camera of the scene, or a free camera.
+            width, height: pixels.
+            shadows: off by default, they cost more than the rest of the picture.
+
+        Raises:
+            UnknownNameError: no such camera.
+            RenderError: this machine cannot render; the message says what to install.
+        """
+        return self._cameras.render(self.data, name, width, height, shadows)
+
+    def close(self) -> None:
+        """Free the renderers, if any picture was taken."""
+        self._cameras.close()
+
+    def __enter__(self) -> Nao:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
