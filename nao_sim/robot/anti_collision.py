@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import tomllib
 from bisect import bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -54,7 +53,7 @@ def pair_tables() -> tuple[PairTable, ...]:
     data = tomllib.loads(resource("assets", "nao", "anti_collision.toml").read_text("utf-8"))
     tables = []
     for row in data["table"]:
-        rows = tuple(tuple(float(x) for x in r) for r in np.radians(row["rows_deg"]))
+        rows = tuple((float(x), float(low), float(high)) for x, low, high in np.radians(row["rows_deg"]))
         tables.append(PairTable(row["given"], row["limits"], rows))
     return tuple(tables)
 
@@ -73,7 +72,7 @@ def clamp_pairs(angles: np.ndarray) -> np.ndarray:
     return safe
 
 
-def hold_pairs(previous: np.ndarray, proposed: np.ndarray, goal: np.ndarray, step: Sequence[float]) -> None:
+def hold_pairs(previous: np.ndarray, proposed: np.ndarray, goal: np.ndarray, step: np.ndarray) -> None:
     """Make a rate-limited step from a safe set-point end in a safe one, in place.
 
     The limited joint follows the edge of its table; where it is too slow for that, the other joint waits for it.
