@@ -1,0 +1,145 @@
+"""May the robot do it: range and speed of a trajectory, checked, fitted, or given more time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d, uniform_filter1d
+
+from nao_sim.motion.errors import RangeExceeded, SpeedExceeded
+from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
+from nao_sim.robot.joints import ACTUATED, joint_table
+
+HANDS = ("LHand", "RHand")
+# A trajectory made to be just inside a bound must not fail its own check on rounding.
+TOLERANCE = 1e-6
+# Slowing down and speeding up again is spread over this many control periods, so that it is not a jolt.
+_BLEND_PERIODS = 15
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """What the joints may do.
+
+    Attributes:
+        range_rad: lower and upper target, rad (hands fraction), shape (25, 2).
+        speed: nominal speed of each motor at its joint, rad/s (hands 1/s), shape (25,).
+    """
+
+    range_rad: NDArray[np.float64]
+    speed: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Change:
+    """One thing that fitting changed: a joint clipped to its range, or time added to a stretch of the motion."""
+
+    joint: str
+    time_s: float
+    asked: float
+    bound: float
+    what: str
+
+    def __str__(self) -> str:
+        return f"{self.joint} at {self.time_s:.2f} s: {self.what} {self.asked:.2f} → {self.bound:.2f}"
+
+
+def bounds(limits: str = "thesis") -> Bounds:
+    """Return the bounds of the actuated joints.
+
+    Args:
+        limits: ``"thesis"`` for table A1-1, ``"v5"`` for the narrower NAO V5 document.
+    """
+    table = joint_table()
+    rows = [table.index(name) for name in ACTUATED]
+    return Bounds(table.range_rad(limits)[rows], table.max_speed_rad()[rows])
+
+
+def unit_of(joint: str) -> tuple[str, float]:
+    """Return the unit that files and messages use for a joint, and its size in the internal unit's reciprocal."""
+    return ("fraction", 1.0) if joint in HANDS else ("deg", float(np.rad2deg(1.0)))
+
+
+def check(trajectory: Trajectory, limits: str = "thesis") -> None:
+    """Refuse a trajectory that leaves a range or outruns a motor.
+
+    Raises:
+        RangeExceeded: a target is outside its joint's range; names the joint that is furthest out.
+        SpeedExceeded: a target moves faster than the motor's nominal speed; names the worst joint.
+    """
+    bound = bounds(limits)
+    excess = np.maximum(bound.range_rad[:, 0] - trajectory.targets, trajectory.targets - bound.range_rad[:, 1])
+    if excess.max() > TOLERANCE:
+        row, column = np.unravel_index(np.argmax(excess), excess.shape)
+        unit, scale = unit_of(trajectory.names[column])
+        low, high = bound.range_rad[column] * scale
+        raise RangeExceeded(
+            trajectory.names[column],
+            float(trajectory.times[row]),
+            float(trajectory.targets[row, column] * scale),
+            (float(low), float(high)),
+            unit,
+        )
+    if len(trajectory.times) < 2:
+        return
+    ratio = trajectory.speeds() / bound.speed
+    if ratio.max() > 1.0 + TOLERANCE:
+        row, column = np.unravel_index(np.argmax(ratio), ratio.shape)
+        unit, scale = unit_of(trajectory.names[column])
+        asked, most = ratio[row, column] * bound.speed[column] * scale, bound.speed[column] * scale
+        shown = "deg/s" if unit == "deg" else "1/s"
+        raise SpeedExceeded(trajectory.names[column], float(trajectory.times[row]), float(asked), float(most), shown)
+
+
+def clipped(trajectory: Trajectory, limits: str = "thesis") -> tuple[Trajectory, list[Change]]:
+    """Return the trajectory inside every range, and for each joint that was outside where it was furthest out."""
+    bound = bounds(limits)
+    inside = np.clip(trajectory.targets, bound.range_rad[:, 0], bound.range_rad[:, 1])
+    changes = []
+    for column, name in enumerate(trajectory.names):
+        excess = np.abs(trajectory.targets[:, column] - inside[:, column])
+        row = int(np.argmax(excess))
+        if excess[row] > TOLERANCE:
+            _, scale = unit_of(name)
+            asked, got = trajectory.targets[row, column] * scale, inside[row, column] * scale
+            changes.append(Change(name, float(trajectory.times[row]), float(asked), float(got), "angle"))
+    return Trajectory(trajectory.times, inside, trajectory.names, dict(trajectory.marks)), changes
+
+
+def stretched(trajectory: Trajectory, limits: str = "thesis", share: float = 0.98) -> tuple[Trajectory, list[Change]]:
+    """Give time where a motor could not follow, and only there.
+
+    Each interval is lengthened until no joint moves faster than ``share`` of its nominal speed; the lengthening is
+    blended in and out over 0.3 s. The result is sampled at the control period.
+
+    Returns:
+        The trajectory, and one change for each joint that asked for more, at its fastest moment.
+    """
+    even = trajectory.resampled()
+    if len(even.times) < 2:
+        return even, []
+    ratio = even.speeds() / (share * bounds(limits).speed)
+    changes = []
+    for column, name in enumerate(even.names):
+        row = int(np.argmax(ratio[:, column]))
+        if ratio[row, column] > 1.0 + TOLERANCE:
+            _, scale = unit_of(name)
+            most = share * bounds(limits).speed[column] * scale
+            asked = float(ratio[row, column] * most)
+            changes.append(Change(name, float(even.times[row]), asked, float(most), "speed"))
+    if not changes:
+        return even, []
+    # A maximum filter and then a mean of the same width is smooth and nowhere below the ratio itself.
+    factor = uniform_filter1d(maximum_filter1d(np.maximum(ratio.max(axis=1), 1.0), _BLEND_PERIODS), _BLEND_PERIODS)
+    times = np.concatenate([[0.0], np.cumsum(np.diff(even.times) * factor)])
+    marks = {name: float(np.interp(at, even.times, times)) for name, at in even.marks.items()}
+    return Trajectory(times, even.targets, even.names, marks).resampled(CONTROL_PERIOD), changes
+
+
+def fit(trajectory: Trajectory, limits: str = "thesis") -> tuple[Trajectory, list[Change]]:
+    """Return the nearest trajectory that the robot can follow, and a report of what changed (empty: nothing)."""
+    inside, clips = clipped(trajectory, limits)
+    slower, stretches = stretched(inside, limits)
+    return slower, clips + stretches

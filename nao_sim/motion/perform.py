@@ -1,0 +1,119 @@
+"""Play a trajectory on the robot: a set-point every 20 ms, balance feedback, and a log of what the body did."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nao_sim.motion.balance import Balance, lean_of, planned_lean
+from nao_sim.motion.trajectory import Trajectory
+from nao_sim.robot import ACTUATED, Nao, joint_table
+
+Progress = Callable[[int, int], None]
+Array = NDArray[np.float64]
+
+SETTLE_S = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class MotionLog:
+    """What was asked and what happened, every 20 ms; m moments.
+
+    Attributes:
+        time: seconds from the start of the motion, shape (m,); the first moment is before the first set-point.
+        targets: the trajectory's set-points, rad (hands fraction), shape (m, 25), columns as ``names``.
+        commands: what was sent: the targets with the balance feedback, shape (m, 25).
+        angles, velocities, torques: measured, rad, rad/s, Nm, shape (m, 25).
+        torso_pose: position m and orientation w, x, y, z in the world, shape (m, 7).
+        body_pose: the same of every body of the model, shape (m, nbody, 7).
+        contacts: foot force sensors, N, shape (m, 8), order of :data:`nao_sim.robot.sensors.FSR`.
+        fallen: down at the end or on the way.
+        fell_at: seconds, or None.
+        names: columns.
+    """
+
+    time: Array
+    targets: Array
+    commands: Array
+    angles: Array
+    velocities: Array
+    torques: Array
+    torso_pose: Array
+    body_pose: Array
+    contacts: Array
+    fallen: bool
+    fell_at: float | None
+    names: tuple[str, ...] = ACTUATED
+
+
+class _Recorder:
+    """Collects one row a control period."""
+
+    def __init__(self, nao: Nao) -> None:
+        self.nao = nao
+        self.rows: list[tuple[Array, ...]] = []
+        self.start = nao.time
+        self.fell_at: float | None = None
+
+    def add(self, targets: Array, commands: Array) -> None:
+        nao = self.nao
+        if self.fell_at is None and nao.fallen:
+            self.fell_at = nao.time - self.start
+        bodies = np.concatenate([nao.data.xpos, nao.data.xquat], axis=1)
+        moment = np.array(nao.time - self.start)
+        self.rows.append(
+            (moment, targets, commands, nao.angles, nao.velocities, nao.torques, nao.torso_pose, bodies, nao.fsr)
+        )
+
+    def log(self) -> MotionLog:
+        columns: list[Any] = [np.array(column) for column in zip(*self.rows, strict=True)]
+        return MotionLog(*columns, self.fell_at is not None, self.fell_at)
+
+
+def perform(
+    nao: Nao,
+    trajectory: Trajectory,
+    *,
+    balance: bool = True,
+    progress: Progress | None = None,
+    settle_s: float = SETTLE_S,
+) -> MotionLog:
+    """Play a trajectory from where the robot is, and then hold its end for a moment.
+
+    Args:
+        nao: the robot; the motion starts from its present state.
+        trajectory: what to do.
+        balance: with the on-line feedback of :class:`nao_sim.motion.balance.Balance`.
+        progress: called with (periods done, periods in all) after each control period.
+        settle_s: seconds to hold the last target, so that a fall at the end is seen.
+
+    Returns:
+        The log; a fall is in it, and the motion is played to its end all the same.
+
+    Raises:
+        RobotError: a target outside its range, or an unstable simulation.
+    """
+    period = nao.control_period
+    steps = int(np.ceil((trajectory.duration + settle_s) / period - 1e-9))
+    plan = trajectory.sample(trajectory.times[0] + np.arange(1, steps + 1) * period)
+    leans = planned_lean(plan)
+    low, high = joint_table().select(ACTUATED).range_rad(nao.limits).T
+    feedback = Balance()
+    gyro = nao.data.sensor("Gyrometer").data
+    recorder = _Recorder(nao)
+    recorder.add(trajectory.sample(trajectory.times[0]), nao.setpoint)
+    for step in range(steps):
+        command = plan[step]
+        if balance:
+            lean = lean_of(nao.torso_pose[None, 3:])
+            command = np.clip(command + feedback.correct(lean, gyro[None, :2], leans[step])[0], low, high)
+        nao.set_targets(command)
+        nao.step()
+        recorder.add(plan[step], nao.setpoint)
+        if progress is not None:
+            progress(step + 1, steps)
+    return recorder.log()
