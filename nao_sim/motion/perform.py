@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -70,8 +70,11 @@ class _Recorder:
         )
 
     def log(self) -> MotionLog:
-        columns: list[Any] = [np.array(column) for column in zip(*self.rows, strict=True)]
-        return MotionLog(*columns, self.fell_at is not None, self.fell_at)
+        names = [entry.name for entry in fields(MotionLog)]
+        columns: dict[str, Any] = {
+            name: np.array(column) for name, column in zip(names, zip(*self.rows, strict=True), strict=False)
+        }
+        return MotionLog(**columns, fallen=self.fell_at is not None, fell_at=self.fell_at)
 
 
 def perform(
