@@ -1,0 +1,1 @@
+"""Walking: footsteps, preview control, leg kinematics, feedback."""
