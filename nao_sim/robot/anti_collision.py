@@ -23,39 +23,36 @@ class PairTable:
 
     Attributes:
         given, limits: the joints' names.
-        rows: ``(angle of given, least of limits, greatest of limits)`` in rad, by rising first column.
+        angles: angles of the first joint, rising, rad.
+        least, greatest: limits of the second joint at those angles, rad.
     """
 
     given: str
     limits: str
-    rows: tuple[tuple[float, float, float], ...]
+    angles: tuple[float, ...]
+    least: tuple[float, ...]
+    greatest: tuple[float, ...]
 
     def range_at(self, angle: float) -> tuple[float, float]:
         """Return the limits in rad of the second joint for an angle in rad of the first."""
-        rows = self.rows
-        k = bisect_right(rows, angle, key=_first)
+        angles, least, greatest = self.angles, self.least, self.greatest
+        k = bisect_right(angles, angle)
         if k == 0:
-            return rows[0][1:]
-        if k == len(rows):
-            return rows[-1][1:]
-        (x0, low0, high0), (x1, low1, high1) = rows[k - 1], rows[k]
-        s = (angle - x0) / (x1 - x0)
-        return low0 + s * (low1 - low0), high0 + s * (high1 - high0)
-
-
-def _first(row: tuple[float, float, float]) -> float:
-    return row[0]
+            return least[0], greatest[0]
+        if k == len(angles):
+            return least[-1], greatest[-1]
+        s = (angle - angles[k - 1]) / (angles[k] - angles[k - 1])
+        return least[k - 1] + s * (least[k] - least[k - 1]), greatest[k - 1] + s * (greatest[k] - greatest[k - 1])
 
 
 @lru_cache
 def pair_tables() -> tuple[PairTable, ...]:
     """Return the tables of ``assets/nao/anti_collision.toml``."""
     data = tomllib.loads(resource("assets", "nao", "anti_collision.toml").read_text("utf-8"))
-    tables = []
-    for row in data["table"]:
-        rows = tuple((float(x), float(low), float(high)) for x, low, high in np.radians(row["rows_deg"]))
-        tables.append(PairTable(row["given"], row["limits"], rows))
-    return tuple(tables)
+    return tuple(
+        PairTable(row["given"], row["limits"], *(tuple(column) for column in np.radians(row["rows_deg"]).T.tolist()))
+        for row in data["table"]
+    )
 
 
 @lru_cache

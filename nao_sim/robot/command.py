@@ -21,9 +21,9 @@ TOLERANCE_RAD = 1e-9
 
 
 @lru_cache(maxsize=256)
-def _actuators(names: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for joint or chain names, the actuator rows and the positions of their values in the caller's list."""
-    joints = resolve(names)
+def _actuators(names: tuple[str, ...]) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
+    """Return, for joint or chain names, the joints, their actuator rows and the places of those rows' values."""
+    joints = tuple(resolve(names))
     followers = {j.name: j.follows for j in joint_table().joints if j.follows is not None}
     rows, places = [], []
     for place, name in enumerate(joints):
@@ -33,7 +33,7 @@ def _actuators(names: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
             continue
         rows.append(ACTUATED.index(leader))
         places.append(place)
-    return np.array(rows), np.array(places)
+    return joints, np.array(rows), np.array(places)
 
 
 class CommandLayer:
@@ -48,10 +48,10 @@ class CommandLayer:
 
     def __init__(self, limits: str, period: float) -> None:
         table = joint_table().select(ACTUATED)
-        self.low, self.high = table.range_rad(limits).T
+        self.low, self.high = table.range_rad(limits).T.copy()
+        self._least, self._most = self.low - TOLERANCE_RAD, self.high + TOLERANCE_RAD
         self.max_speed = table.max_speed_rad("nominal")
         self._step = self.max_speed * period
-        self._limits = limits
         self.targets = np.zeros(len(ACTUATED))
         self.setpoint = np.zeros(len(ACTUATED))
 
@@ -72,8 +72,7 @@ class CommandLayer:
             TargetError: a wrong number of angles, or one that is not finite.
             AngleRangeError: an angle beyond its joint's range. Nothing is changed then.
         """
-        rows, places = _actuators((names,) if isinstance(names, str) else tuple(names))
-        joints = resolve(names)
+        joints, rows, places = _actuators((names,) if isinstance(names, str) else tuple(names))
         values = np.asarray(angles, dtype=float)
         if values.ndim == 0:
             values = np.full(len(joints), float(values))
@@ -87,19 +86,20 @@ class CommandLayer:
         """Set all ``(25,)`` targets at once, in ``ACTUATED`` order; raises as :meth:`set` does."""
         if np.shape(targets) != self.targets.shape:
             raise TargetError(f"targets have shape {np.shape(targets)}; give {self.targets.shape}, one per motor")
-        if not np.isfinite(targets).all():
-            name = ACTUATED[int(np.flatnonzero(~np.isfinite(targets))[0])]
-            raise TargetError(f"{name}: the target is not a finite number; give radians")
-        outside = (targets < self.low - TOLERANCE_RAD) | (targets > self.high + TOLERANCE_RAD)
-        if outside.any():
-            k = int(np.flatnonzero(outside)[0])
-            raise AngleRangeError(ACTUATED[k], float(targets[k]), float(self.low[k]), float(self.high[k]))
-        self.targets = clamp_pairs(np.clip(targets, self.low, self.high))
+        inside = (targets >= self._least) & (targets <= self._most)
+        if not inside.all():
+            self._refuse(targets, int(inside.argmin()))
+        self.targets = clamp_pairs(np.minimum(np.maximum(targets, self.low), self.high))
+
+    def _refuse(self, targets: np.ndarray, row: int) -> None:
+        if not np.isfinite(targets[row]):
+            raise TargetError(f"{ACTUATED[row]}: the target is not a finite number; give radians")
+        raise AngleRangeError(ACTUATED[row], float(targets[row]), float(self.low[row]), float(self.high[row]))
 
     def advance(self) -> np.ndarray:
         """Move the set-point one control period towards the targets and return it, ``(25,)``."""
         previous = self.setpoint
-        setpoint = previous + np.clip(self.targets - previous, -self._step, self._step)
+        setpoint = previous + np.minimum(np.maximum(self.targets - previous, -self._step), self._step)
         hold_pairs(previous, setpoint, self.targets, self._step)
         self.setpoint = setpoint
         return setpoint

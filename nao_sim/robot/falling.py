@@ -21,9 +21,8 @@ class FallDetector:
     def __init__(self, model: mujoco.MjModel) -> None:
         robot = {b for b in range(model.nbody) if model.body_rootid[b] == model.body("torso").id}
         feet = {model.body(name).id for name in _FEET}
-        kind = [2 if b in feet else 1 if b in robot else 0 for b in model.geom_bodyid]
-        # World geoms 0, the robot's feet 2, the rest of the robot 1: a body contact is a pair of 0 and 1.
-        self._kind = np.array(kind)
+        # World 0, feet 3, the rest of the robot 1: only a body part on the world adds up to 1.
+        self._kind = np.array([3 if b in feet else 1 if b in robot else 0 for b in model.geom_bodyid])
         self._torso = model.body("torso").id
         self._upright = float(np.cos(TILT_RAD))
         self._fixed = model.joint(0).type[0] != mujoco.mjtJoint.mjJNT_FREE
@@ -42,7 +41,5 @@ class FallDetector:
         return down and self._armed
 
     def _body_contact(self, data: mujoco.MjData) -> bool:
-        if data.ncon == 0:
-            return False
-        kinds = self._kind[data.contact.geom]
-        return bool(((kinds.min(axis=1) == 0) & (kinds.max(axis=1) == 1)).any())
+        geoms = data.contact.geom
+        return bool((self._kind[geoms[:, 0]] + self._kind[geoms[:, 1]] == 1).any())

@@ -14,8 +14,8 @@ SOLES = ("l_sole", "r_sole")
 def place(model: mujoco.MjModel, data: mujoco.MjData, posture: Posture, limits: str = "thesis") -> None:
     """Reset the simulation into a posture, at rest.
 
-    A standing posture stands on its soles, upright as they make it, torso above the origin; the others get the torso height and
-    pitch of the posture file. A fixed base stays where it is.
+    A standing posture stands on its soles, upright as they make it, torso above the origin; the others
+    get the torso height and pitch of the posture file. A fixed base stays where it is.
     """
     mujoco.mj_resetData(model, data)
     set_joints(model, data, posture.clamped(limits))
