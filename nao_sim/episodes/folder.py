@@ -34,6 +34,27 @@ def _refuse_to_overwrite(folder: Path, marker: str) -> None:
         raise EpisodeError(f"{folder} holds other files; choose a new or empty folder with --out")
 
 
+def check_place(folder: Path, marker: str = "episode.json") -> None:
+    """Say before the work is done that its result could not be kept.
+
+    Raises:
+        EpisodeError: the place holds something else or cannot be written.
+    """
+    with _errors_named(folder):
+        _refuse_to_overwrite(folder, marker)
+        parent = next(p for p in folder.absolute().parents if p.exists())
+        with tempfile.TemporaryFile(dir=parent):
+            pass
+
+
+@contextmanager
+def _errors_named(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise _error(folder, error) from None
+
+
 @contextmanager
 def complete_folder(folder: Path, marker: str) -> Iterator[Path]:
     """Give a hidden folder to fill; it takes its name only when the block ends without an error.
@@ -48,21 +69,17 @@ def complete_folder(folder: Path, marker: str) -> Iterator[Path]:
     Raises:
         EpisodeError: the place holds something else or cannot be written.
     """
-    try:
-        folder = folder.absolute()
+    folder = folder.absolute()
+    with _errors_named(folder):
         _refuse_to_overwrite(folder, marker)
         folder.parent.mkdir(parents=True, exist_ok=True)
         work = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    except OSError as error:
-        raise _error(folder, error) from None
-    try:
-        yield work
-        work.chmod(0o777 & ~_umask())
-        _replace(folder, work)
-    except OSError as error:
-        raise _error(folder, error) from None
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
+        try:
+            yield work
+            work.chmod(0o777 & ~_umask())
+            _replace(folder, work)
+        finally:
+            shutil.rmtree(work, ignore_errors=True)
 
 
 def _umask() -> int:

@@ -24,7 +24,10 @@ def _joint_view(name: str) -> rrb.TimeSeriesView:
     import rerun.blueprint as rrb
 
     unit = "% open" if name.endswith("Hand") else "degrees"
-    return rrb.TimeSeriesView(origin=f"joints/{name}", name=f"{name} [{unit}]")
+    # One look for all joints (blue measured, orange target, red limits) needs no legend that hides the curves.
+    return rrb.TimeSeriesView(
+        origin=f"joints/{name}", name=f"{name} [{unit}]", plot_legend=rrb.PlotLegend(visible=False)
+    )
 
 
 def _joint_tabs(names: Sequence[str], moving: Sequence[str]) -> rrb.Tabs:

@@ -54,7 +54,9 @@ def recording(path: Path, name: str, recording_id: str, blueprint: rrb.Blueprint
         stream.disconnect()
         done = True
     except RuntimeError as error:
-        raise RecordingError(f"{path.name} could not be written ({error}); is the disk full or the folder read-only?") from None
+        raise RecordingError(
+            f"{path.name} could not be written ({error}); is the disk full or the folder read-only?"
+        ) from None
     finally:
         if not done:
             path.unlink(missing_ok=True)

@@ -113,7 +113,9 @@ def log_centroid_path(stream: rr.RecordingStream, time: np.ndarray, points: np.n
     stream.reset_time()
 
 
-def log_ellipses(stream: rr.RecordingStream, entity: str, t: float, centres: np.ndarray, half_sizes: np.ndarray) -> None:
+def log_ellipses(
+    stream: rr.RecordingStream, entity: str, t: float, centres: np.ndarray, half_sizes: np.ndarray
+) -> None:
     """Log the ellipses that stand for moving hands (thesis ch. 2, fig. 2-5).
 
     Args:
@@ -126,7 +128,9 @@ def log_ellipses(stream: rr.RecordingStream, entity: str, t: float, centres: np.
     import rerun as rr
 
     stream.set_time(TIMELINE, duration=t)
-    stream.log(f"{entity}/ellipses", rr.Ellipses2D(half_sizes=half_sizes, centers=centres, colors=_WHITE, line_radii=1.5))
+    stream.log(
+        f"{entity}/ellipses", rr.Ellipses2D(half_sizes=half_sizes, centers=centres, colors=_WHITE, line_radii=1.5)
+    )
     stream.reset_time()
 
 

@@ -7,6 +7,12 @@ from nao_sim.episodes.errors import EpisodeError
 from nao_sim.episodes.folder import complete_folder
 
 
+def interrupted(out: Path) -> None:
+    with complete_folder(out, "episode.json") as work:
+        (work / "episode.json").write_text("lost")
+        raise KeyboardInterrupt
+
+
 def test_folder_appears_only_when_complete(tmp_path: Path) -> None:
     out = tmp_path / "new" / "episode"
     with complete_folder(out, "episode.json") as work:
@@ -30,9 +36,8 @@ def test_an_interrupted_one_leaves_the_older_untouched(tmp_path: Path) -> None:
     out = tmp_path / "episode"
     with complete_folder(out, "episode.json") as work:
         (work / "episode.json").write_text("kept")
-    with pytest.raises(KeyboardInterrupt), complete_folder(out, "episode.json") as work:
-        (work / "episode.json").write_text("lost")
-        raise KeyboardInterrupt
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(out)
     assert (out / "episode.json").read_text() == "kept"
     assert [p.name for p in tmp_path.iterdir()] == ["episode"]
 
@@ -53,6 +58,6 @@ def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
 
 
 def test_a_full_disk_is_said_and_nothing_is_left(tmp_path: Path) -> None:
-    with pytest.raises(EpisodeError, match="No space left.*free some space"), complete_folder(tmp_path / "e", "x"):
+    with pytest.raises(EpisodeError, match=r"No space left.*free some space"), complete_folder(tmp_path / "e", "x"):
         raise OSError(errno.ENOSPC, "No space left on device")
     assert list(tmp_path.iterdir()) == []
