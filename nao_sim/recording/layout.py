@@ -33,7 +33,7 @@ def _joint_view(name: str) -> rrb.TimeSeriesView:
 def _joint_tabs(names: Sequence[str], moving: Sequence[str]) -> rrb.Tabs:
     import rerun.blueprint as rrb
 
-    tabs = []
+    tabs: list[rrb.View | rrb.Container] = []
     if moving:
         tabs.append(rrb.Grid(*map(_joint_view, moving), grid_columns=2, name="Moving joints"))
     for limb, starts in _LIMBS.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -58,7 +58,7 @@ def _primitive(model: mujoco.MjModel, geom: int) -> rr.AsComponents | None:
 
     size, position = model.geom_size[geom], model.geom_pos[geom]
     quaternion = model.geom_quat[geom][[1, 2, 3, 0]]
-    placed = {"quaternions": [quaternion], "colors": [_rgba(model, geom)], "fill_mode": "solid"}
+    placed: dict[str, Any] = {"quaternions": [quaternion], "colors": [_rgba(model, geom)], "fill_mode": "solid"}
     kind = mujoco.mjtGeom(model.geom_type[geom])
     if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
         return rr.Ellipsoids3D(half_sizes=[[size[0]] * 3], centers=[position], **placed)

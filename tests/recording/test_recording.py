@@ -1,0 +1,147 @@
+"""Recordings are read back and compared with what was put in."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+import pytest
+from rerun.chunk import RrdReader
+
+from nao_sim.recording.joints import in_display_units, log_balance, log_joints
+from nao_sim.recording.layout import layout
+from nao_sim.recording.narrative import log_decision, log_phases
+from nao_sim.recording.robot import log_body_poses, log_shells
+from nao_sim.recording.stream import RecordingError, recording
+from nao_sim.recording.video import LONGEST_SIDE_PX, log_frames
+from nao_sim.robot import ACTUATED, Nao, joint_table
+
+RNG = np.random.default_rng(5)
+TIME = np.linspace(0.0, 1.0, 51)
+
+
+@pytest.fixture(scope="module")
+def nao() -> Nao:
+    return Nao()
+
+
+@pytest.fixture(scope="module")
+def motion(nao: Nao) -> dict[str, np.ndarray]:
+    poses = []
+    for _ in TIME:
+        nao.step()
+        poses.append(np.concatenate([nao.data.xpos, nao.data.xquat], axis=1))
+    joints = RNG.uniform(-1, 1, (3, len(TIME), len(ACTUATED)))
+    return {"pose": np.array(poses), "targets": joints[0], "angles": joints[1], "torques": joints[2]}
+
+
+@pytest.fixture(scope="module")
+def rrd(nao: Nao, motion: dict[str, np.ndarray], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("recording") / "motion.rrd"
+    with recording(path, "a motion", "motion-1", layout(ACTUATED, ACTUATED[:4])) as stream:
+        log_shells(stream, nao.model)
+        log_body_poses(stream, nao.model, TIME, motion["pose"])
+        joint_range = joint_table().select(ACTUATED).range_rad(nao.limits)
+        log_joints(stream, ACTUATED, joint_range, TIME, motion["targets"], motion["angles"], motion["torques"])
+        log_balance(stream, TIME, motion["pose"][:, 1], np.ones((len(TIME), 8)))
+        log_phases(stream, [(0.0, "watch"), (0.5, "imitate"), (1.0, "end")])
+        log_decision(stream, "watching", 0.5, "**bye_right**")
+        log_frames(stream, (np.full((240, 320, 3), i, np.uint8) for i in range(70)), fps=70.0)
+    return path
+
+
+def batches(path: Path, entity: str) -> Iterator[pa.RecordBatch]:
+    for chunk in RrdReader(path).stream():
+        if chunk.entity_path == entity and not chunk.is_static:
+            yield chunk.to_record_batch()
+
+
+def column(path: Path, entity: str, name: str) -> tuple[np.ndarray, pa.Array]:
+    """Times [s] and values of one component, in order of time."""
+    found = pa.Table.from_batches(list(batches(path, entity))).sort_by("time")
+    return found["time"].cast(pa.int64()).to_numpy() * 1e-9, found[name].combine_chunks()
+
+
+@pytest.mark.parametrize("joint", ["HeadYaw", "RElbowRoll", "LHand"])
+def test_angles_come_back_as_they_went_in(rrd: Path, motion: dict[str, np.ndarray], joint: str) -> None:
+    time, values = column(rrd, f"/joints/{joint}/angle", "Scalars:scalars")
+    np.testing.assert_allclose(time, TIME, atol=1e-9)
+    expected = in_display_units(ACTUATED, motion["angles"])[:, ACTUATED.index(joint)]
+    np.testing.assert_allclose(pc.list_flatten(values).to_numpy(), expected, rtol=1e-12)
+
+
+def test_limits_are_those_of_the_thesis_in_degrees(rrd: Path) -> None:
+    for bound, expected in (("min", -39.0), ("max", 30.0)):
+        _, values = column(rrd, f"/joints/HeadPitch/{bound}", "Scalars:scalars")
+        np.testing.assert_allclose(pc.list_flatten(values).to_numpy(), expected, atol=1e-4)
+
+
+def test_body_poses_are_world_poses_with_rerun_quaternions(nao: Nao, rrd: Path, motion: dict[str, np.ndarray]) -> None:
+    body = nao.model.body("r_hand").id
+    _, position = column(rrd, "/world/robot/r_hand", "Transform3D:translation")
+    _, quaternion = column(rrd, "/world/robot/r_hand", "Transform3D:quaternion")
+    position_m = np.array(pc.list_flatten(position).to_pylist())
+    xyzw = np.array(pc.list_flatten(quaternion).to_pylist())
+    np.testing.assert_allclose(position_m, motion["pose"][:, body, :3], atol=1e-6)
+    np.testing.assert_allclose(xyzw, motion["pose"][:, body][:, [4, 5, 6, 3]], atol=1e-6)
+
+
+def test_every_body_with_a_visible_shell_is_drawn(nao: Nao, rrd: Path) -> None:
+    drawn = {c.entity_path.split("/")[3] for c in RrdReader(rrd).stream() if "/shell_" in c.entity_path}
+    assert {"torso", "head", "l_hand", "r_foot"} <= drawn
+    assert drawn <= {nao.model.body(i).name for i in range(nao.model.nbody)}
+
+
+def test_phases_frames_and_decision(rrd: Path) -> None:
+    time, states = column(rrd, "/phase", "StateChange:state")
+    np.testing.assert_allclose(time, [0, 0.5, 1.0])
+    assert pc.list_flatten(states).to_pylist() == ["watch", "imitate", "end"]
+    time, _ = column(rrd, "/video/frame", "EncodedImage:blob")
+    np.testing.assert_allclose(time, np.arange(70) / 70, atol=1e-8)
+    _, text = column(rrd, "/decision", "TextDocument:text")
+    assert pc.list_flatten(text).to_pylist()[-1] == "**bye_right**"
+
+
+def test_it_verifies_and_carries_a_blueprint(rrd: Path) -> None:
+    assert len(RrdReader(rrd).blueprints()) == 1
+    rerun = [sys.executable, "-m", "rerun", "rrd", "verify", str(rrd)]
+    done = subprocess.run(rerun, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_large_frames_are_stored_smaller(tmp_path: Path) -> None:
+    import cv2
+
+    path = tmp_path / "large.rrd"
+    with recording(path, "large", "large-1", layout(ACTUATED, [])) as stream:
+        log_frames(stream, [np.zeros((2160, 3840, 3), np.uint8)], fps=25.0)
+    _, blobs = column(path, "/video/frame", "EncodedImage:blob")
+    jpeg = np.array(blobs.to_pylist()[0][0], dtype=np.uint8)
+    assert max(cv2.imdecode(jpeg, cv2.IMREAD_COLOR).shape) == LONGEST_SIDE_PX
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full to write to")
+def test_a_full_disk_is_one_error_and_leaves_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "full.rrd"
+    path.symlink_to("/dev/full")
+    with (
+        pytest.raises(RecordingError, match=r"full\.rrd could not be written"),
+        recording(path, "x", "x", layout((), ())) as s,
+    ):
+        log_frames(s, (np.zeros((100, 100, 3), np.uint8) for _ in range(100)), fps=25.0)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_while_recording_leaves_nothing(tmp_path: Path) -> None:
+    def broken() -> Iterator[np.ndarray]:
+        yield np.zeros((10, 10, 3), np.uint8)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), recording(tmp_path / "cut.rrd", "x", "x", layout((), ())) as stream:
+        log_frames(stream, broken(), fps=25.0)
+    assert list(tmp_path.iterdir()) == []
