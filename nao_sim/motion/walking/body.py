@@ -47,7 +47,7 @@ class WalkingBody:
 
     def carry(
         self, feet: NDArray[np.float64], com: NDArray[np.float64], ahead: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Return joints and torso that put the centre of mass over the plan.
 
         Args:
@@ -56,7 +56,7 @@ class WalkingBody:
             ahead: ShoulderPitch to add on the left and take away on the right, rad, shape (n,).
 
         Returns:
-            Targets, shape (n, 25), and torso origins, m, shape (n, 3).
+            Targets, shape (n, 25), torso origins, m, shape (n, 3), and the torso's headings, rad, shape (n,).
         """
         targets = np.tile(self.targets, (len(com), 1))
         targets[:, _SHOULDERS] += ahead[:, None] * [1.0, -1.0]
@@ -66,17 +66,16 @@ class WalkingBody:
         for _ in range(_PASSES):
             targets[:, LEG_COLUMNS], heading = solve_legs(torso, np.zeros(len(com)), lean, feet)
             torso = torso + wanted - self._centres_of_mass(self._configurations(targets, torso, heading))
-        targets[:, LEG_COLUMNS], _ = solve_legs(torso, np.zeros(len(com)), lean, feet)
-        return targets, torso
+        targets[:, LEG_COLUMNS], heading = solve_legs(torso, np.zeros(len(com)), lean, feet)
+        return targets, torso, heading
 
     def zero_moment_point(
-        self, targets: NDArray[np.float64], torso: NDArray[np.float64], feet: NDArray[np.float64]
+        self, targets: NDArray[np.float64], torso: NDArray[np.float64], heading: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Return the zero moment point that the moving body makes, m, shape (n, 2), by inverse dynamics."""
-        _, heading = solve_legs(torso, np.zeros(len(torso)), np.full(len(torso), self.pitch), feet)
         q = self._configurations(targets, torso, heading)
         n, nv = len(q), self.model.nv
-        velocity, before = np.zeros((n, nv)), np.zeros(nv)
+        velocity = np.zeros((n, nv))
         for k in range(1, n - 1):
             mujoco.mj_differentiatePos(self.model, velocity[k], 2 * CONTROL_PERIOD, q[k - 1], q[k + 1])
         acceleration = np.gradient(velocity, CONTROL_PERIOD, axis=0)
@@ -88,7 +87,6 @@ class WalkingBody:
             # The free joint's torque is in the torso's frame and about its origin.
             torque = self.data.xmat[1].reshape(3, 3) @ self.data.qfrc_inverse[3:6] + np.cross(q[k, :3], force)
             points[k] = [-torque[1] / force[2], torque[0] / force[2]]
-        del before
         return points
 
     def _configurations(

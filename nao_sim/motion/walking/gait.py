@@ -46,6 +46,10 @@ class Gains:
     ankle_roll: float
     ankle_roll_rate: float
     step: float
+    most_step_m: float
+    most_inward_m: float
+    freeze: float
+    heading: float
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ class WalkPlan:
         zmp: the reference, m, shape (n, 2).
         com: centre of mass, m, shape (n, 2); its height is constant.
         torso: torso origin, m, shape (n, 3).
+        heading: of the torso, rad, shape (n,).
         targets: the 25 joints without feedback, rad, shape (n, 25).
         steps: the footsteps.
     """
@@ -44,6 +45,7 @@ class WalkPlan:
     zmp: NDArray[np.float64]
     com: NDArray[np.float64]
     torso: NDArray[np.float64]
+    heading: NDArray[np.float64]
     targets: NDArray[np.float64]
     steps: tuple[Footstep, ...]
 
@@ -65,12 +67,12 @@ def plan_walk(x: float, y: float, turn: float, settings: WalkSettings | None = N
     arms = settings.gait.arm_swing_rad_m * (feet[:, 0, :2] - feet[:, 1, :2])
     heading = feet[:, :, 3].mean(axis=1)
     ahead = arms[:, 0] * np.cos(heading) + arms[:, 1] * np.sin(heading) if len(steps) else np.zeros(len(feet))
-    targets, torso = body.carry(feet, com, ahead)
-    made = body.zero_moment_point(targets, torso, feet)
+    targets, torso, torso_heading = body.carry(feet, com, ahead)
+    made = body.zero_moment_point(targets, torso, torso_heading)
     com = com + follow(model, reference - made)[0][:, 0]
-    targets, torso = body.carry(feet, com, ahead)
+    targets, torso, torso_heading = body.carry(feet, com, ahead)
     times = np.arange(len(feet)) * CONTROL_PERIOD
-    return WalkPlan(times, feet, support, swing, reference, com, torso, targets, tuple(steps))
+    return WalkPlan(times, feet, support, swing, reference, com, torso, torso_heading, targets, tuple(steps))
 
 
 def _feet_and_zmp(
