@@ -9,9 +9,11 @@ import typer
 
 from nao_sim.errors import NaoSimError
 
-# command -> module of nao_sim.cli that defines a function of that name ('-' becomes '_')
+# command -> module of nao_sim.cli that defines a function, or a Typer of sub-commands, of that name ('-' becomes '_')
 COMMANDS = {
     "check": "check",
+    "dataset": "dataset",
+    "film": "film",
     "gestures": "gestures",
     "imitate": "imitate",
 }
@@ -29,7 +31,11 @@ def _app(names: list[str]) -> typer.Typer:
 
     for name in names:
         module = importlib.import_module(f"nao_sim.cli.{COMMANDS[name]}")
-        app.command(name)(getattr(module, name.replace("-", "_")))
+        command = getattr(module, name.replace("-", "_"))
+        if isinstance(command, typer.Typer):
+            app.add_typer(command, name=name)
+        else:
+            app.command(name)(command)
     return app
 
 

@@ -1,0 +1,39 @@
+"""``nao-sim film``: render a labelled data set of simulated persons."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from nao_sim.people import dataset
+
+
+def film(
+    out: Annotated[Path, typer.Option(help="Folder of the data set; what stands there is kept and completed.")],
+    persons: Annotated[int, typer.Option(help="How many persons; every third is a child.")] = 12,
+    takes: Annotated[int, typer.Option(help="Clips of each class by each person.")] = 2,
+    seed: Annotated[int, typer.Option(help="The same seed gives the same pixels.")] = 0,
+    classes: Annotated[list[str] | None, typer.Option(help="Only these classes; all dynamic ones without it.")] = None,
+    irrelevant: Annotated[int, typer.Option(help="Clips of motions that are no gesture.")] = 0,
+    processes: Annotated[int, typer.Option(help="How many render at once; 0 for one a core.")] = 0,
+) -> None:
+    """Film simulated persons performing the gestures: a data set with manifest and card."""
+    jobs = dataset.plan(persons, takes, seed, classes or None, irrelevant)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    frames = 0
+    with Progress(*columns) as progress:
+        task = progress.add_task("filming", total=len(jobs))
+
+        def done(count: int) -> None:
+            nonlocal frames
+            frames += count
+            progress.advance(task)
+
+        dataset.film(jobs, out, processes or os.cpu_count() or 1, done)
+    command = {"persons": persons, "takes": takes, "seed": seed, "classes": classes, "irrelevant": irrelevant}
+    dataset.write_card(out, command, jobs)
+    typer.echo(f"{len(jobs)} clips in {out}, {frames} frames rendered now")

@@ -1,0 +1,188 @@
+"""Data sets of clips: what is to be filmed, filming it on several processes, and its manifest and card."""
+
+from __future__ import annotations
+
+import csv
+import json
+import multiprocessing
+import os
+import platform
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from nao_sim.people.errors import FilmError
+from nao_sim.people.film import write_clip
+from nao_sim.people.motions import IRRELEVANT, motions
+from nao_sim.people.shots import Shot, draw_cast, draw_shot
+from nao_sim.people.stage import Stage
+
+CHILDREN = 1 / 3
+
+
+@dataclass(frozen=True)
+class Job:
+    """One clip of a data set: enough to draw its shot and to name its file."""
+
+    seed: int
+    label: str
+    person: int
+    persons: int
+    take: int
+
+    @property
+    def file(self) -> str:
+        """Path below the data set's folder."""
+        return f"{self.label}/p{self.person:03d}_{self.take:02d}.avi"
+
+    def shot(self) -> Shot:
+        """Draw the shot."""
+        person = draw_cast(self.seed, self.persons, CHILDREN)[self.person]
+        return draw_shot(self.seed, self.label, person, self.take)
+
+
+def plan(persons: int, takes: int, seed: int, labels: Sequence[str] | None = None, irrelevant: int = 0) -> list[Job]:
+    """List the clips of a data set: every person performs every label ``takes`` times, plus irrelevant motions.
+
+    Raises:
+        FilmError: an unknown label, or a number that is not positive.
+    """
+    known = [label for label in motions() if label != IRRELEVANT]
+    if persons < 1 or takes < 1 or irrelevant < 0:
+        raise FilmError("a data set needs at least one person and one take, and no fewer than 0 irrelevant clips")
+    wanted = list(known if labels is None else labels)
+    unknown = [label for label in wanted if label not in known]
+    if unknown:
+        raise FilmError(f"class '{unknown[0]}' cannot be filmed; known: {', '.join(known)}")
+    jobs = [Job(seed, label, p, persons, take) for p in range(persons) for label in wanted for take in range(takes)]
+    jobs += [Job(seed, IRRELEVANT, k % persons, persons, k // persons) for k in range(irrelevant)]
+    return jobs
+
+
+def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], None] = lambda frames: None) -> None:
+    """Render the clips that ``out`` does not have yet, then write the manifest and the card.
+
+    Args:
+        jobs: from :func:`plan`.
+        out: the data set's folder; clips that stand there are kept, so an interrupted film goes on where it was.
+        processes: how many render at once.
+        done: called with the number of frames of each clip as it is finished.
+    """
+    out.mkdir(parents=True, exist_ok=True)
+    for part in out.glob("*/.*.part.*"):
+        part.unlink(missing_ok=True)
+    todo = [job for job in jobs if not (out / job.file).exists()]
+    for job in jobs:
+        if (out / job.file).exists():
+            done(0)
+    if processes == 1:
+        with Stage() as stage:
+            for job in todo:
+                done(_film_one(stage, job, out))
+    else:
+        _film_many(todo, out, processes, done)
+    write_manifest(out, [row(job) for job in jobs])
+
+
+_stage: Stage | None = None
+
+
+def _open_stage() -> None:
+    global _stage
+    _stage = Stage()
+
+
+def _film_job(job: Job, out: Path) -> int:
+    assert _stage is not None
+    return _film_one(_stage, job, out)
+
+
+def _film_one(stage: Stage, job: Job, out: Path) -> int:
+    shot = job.shot()
+    write_clip(stage, shot, out / job.file)
+    return shot.frames
+
+
+def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], None]) -> None:
+    # An OpenGL context does not survive a fork.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context, initializer=_open_stage) as pool:
+        try:
+            for future in as_completed([pool.submit(_film_job, job, out) for job in jobs]):
+                done(future.result())
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def row(job: Job) -> dict[str, Any]:
+    """The manifest row of a clip; everything in it follows from the job, so it need not be stored while filming."""
+    shot = job.shot()
+    person, performance = shot.person, shot.performance
+    return {
+        "file": job.file,
+        "label": shot.label,
+        "person": person.name,
+        "take": shot.take,
+        "action": performance.action,
+        "fps": shot.fps,
+        "frames": shot.frames,
+        "width": shot.width,
+        "height": shot.height,
+        "start": 0,
+        "end": shot.frames - 1,
+        "child": person.is_child,
+        "stature": round(person.stature, 3),
+        "framing": shot.framing,
+        "sleeves": shot.outfit.sleeves,
+        "tempo": round(performance.tempo, 3),
+        "size": round(performance.size, 3),
+        "cycles": performance.cycles,
+        "seed": job.seed,
+    }
+
+
+def write_manifest(out: Path, rows: Sequence[dict[str, Any]]) -> None:
+    """Write ``manifest.parquet`` and ``manifest.csv`` of ``rows`` into ``out``, atomically."""
+    table = pa.Table.from_pylist(list(rows))
+    _replace(out / "manifest.parquet", lambda part: pq.write_table(table, part))
+
+    def as_csv(part: Path) -> None:
+        with part.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, fieldnames=table.column_names)
+            writer.writeheader()
+            writer.writerows(rows)
+
+    _replace(out / "manifest.csv", as_csv)
+
+
+def write_card(out: Path, command: dict[str, Any], jobs: Sequence[Job]) -> None:
+    """Write ``card.json``: what is in the data set and how it was made."""
+    labels = [job.label for job in jobs]
+    card = {
+        "made_by": "nao-sim film",
+        "command": command,
+        "clips": {label: labels.count(label) for label in dict.fromkeys(labels)},
+        "persons": len({job.person for job in jobs}),
+        "versions": {name: version(name) for name in ("nao-sim", "mujoco", "numpy", "opencv-python-headless")},
+        "python": platform.python_version(),
+        "renderer": os.environ.get("MUJOCO_GL", "default"),
+        "left_right": "the performer's own; the camera faces the performer and is not mirrored",
+    }
+    _replace(out / "card.json", lambda part: part.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8"))
+
+
+def _replace(path: Path, write: Callable[[Path], Any]) -> None:
+    """Let ``write`` fill a file beside ``path`` and put it in place."""
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        write(part)
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,81 @@
+"""From shots to clips: frames, files, and a whole data set on several processes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from nao_sim.people.errors import FilmError
+from nao_sim.people.motions import joints
+from nao_sim.people.sensor import Exposure, Image
+from nao_sim.people.shots import Shot
+from nao_sim.people.stage import Stage
+from nao_sim.people.surface import Array
+
+# Joints turning faster than this while the shutter is open leave a blur worth rendering.
+_BLUR_RAD = np.radians(3.0)
+_BLUR_STEPS = 3
+
+
+def roll(stage: Stage, shot: Shot) -> Iterator[Image]:
+    """Yield the BGR frames (h, w, 3) of ``shot``."""
+    stage.set_size(shot.width, shot.height)
+    stage.cast(shot.person, shot.outfit)
+    stage.furnish(shot.room)
+    stage.light(shot.light)
+    stage.aim(shot.camera)
+    room, room_depth = stage.room_image()
+    times = np.arange(shot.frames) / shot.fps
+    angles, steps = _exposed_angles(shot, times)
+    exposure = Exposure(shot.sensor, shot.width, shot.height)
+    for k, time in enumerate(times):
+        picture = None
+        for step in range(steps[k]):
+            person, depth = stage.person_image(angles[k, step])
+            layer = np.where((depth < room_depth)[:, :, None], person, room)
+            picture = (
+                layer if picture is None else cv2.addWeighted(picture, step / (step + 1), layer, 1 / (step + 1), 0)
+            )
+        assert picture is not None
+        yield exposure.develop(np.asarray(picture, dtype=np.uint8), float(time))
+
+
+def _exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:
+    """Joint angles (n, steps, nq) while the shutter is open, and how many of them each frame needs."""
+    shutter = shot.sensor.shutter / shot.fps
+    offsets = np.linspace(0, shutter, _BLUR_STEPS)
+    angles = np.stack([shot.performance.angles(times + offset) for offset in offsets], axis=1)
+    turning = np.abs(angles[:, -1] - angles[:, 0])
+    body = [
+        k for name, k in joints().items() if not any(f in name for f in ("thumb", "index", "middle", "ring", "little"))
+    ]
+    fast = turning[:, body].max(axis=1) > _BLUR_RAD
+    return angles, [_BLUR_STEPS if moving else 1 for moving in fast]
+
+
+def write_clip(stage: Stage, shot: Shot, path: Path) -> None:
+    """Render ``shot`` to ``path`` as MJPG in AVI, atomically.
+
+    Raises:
+        FilmError: the encoder or the disk refuses.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{path.stem}.{os.getpid()}.part.avi")
+    writer = cv2.VideoWriter(
+        str(part), cv2.CAP_OPENCV_MJPEG, cv2.VideoWriter.fourcc(*"MJPG"), shot.fps, (shot.width, shot.height)
+    )
+    try:
+        if not writer.isOpened():
+            raise FilmError(f"{part} cannot be written; check the folder's permissions and free space")
+        writer.set(cv2.VIDEOWRITER_PROP_QUALITY, shot.sensor.quality)
+        for frame in roll(stage, shot):
+            writer.write(frame)
+        writer.release()
+        os.replace(part, path)
+    finally:
+        writer.release()
+        part.unlink(missing_ok=True)

@@ -1,0 +1,138 @@
+"""The motions people perform, read from ``assets/people/motions.toml`` and ``hands.toml``."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from nao_sim.people.figure import skeleton
+from nao_sim.people.surface import Array
+from nao_sim.resources import resource
+
+IRRELEVANT = "irrelevant"
+# Angles that change sign when left and right are exchanged: turns about the vertical and the forward axis.
+_ODD = (
+    "root_y",
+    "root_yaw",
+    "root_roll",
+    "waist_roll",
+    "waist_yaw",
+    "chest_roll",
+    "chest_yaw",
+    "head_yaw",
+    "head_roll",
+)
+_FINGER = {"thumb": ("abduct", "oppose", "roll", "mcp", "ip")} | dict.fromkeys(
+    ("index", "middle", "ring", "little"), ("spread", "mcp", "pip", "dip")
+)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One way of performing a label.
+
+    Attributes:
+        label: a vocabulary name or ``irrelevant``.
+        action: what an irrelevant motion is; the label otherwise.
+        steps: rows as in the file; pose names are keys of :func:`poses`.
+        start: poses the motion may begin in.
+        mirrored: exchange left and right of every pose.
+        either_side: left and right are exchanged in half of the performances.
+        reach: how much of the drawn size goes into poses that are not cycles.
+        weight: how often it is drawn among its label's motions.
+    """
+
+    label: str
+    action: str
+    steps: tuple[Mapping[str, Any], ...]
+    start: tuple[str, ...]
+    mirrored: bool
+    either_side: bool
+    reach: float
+    weight: float
+
+
+@lru_cache
+def tables() -> dict[str, Any]:
+    """Return the raw tables of the motion file."""
+    with resource("assets", "people", "motions.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
+@lru_cache
+def joints() -> dict[str, int]:
+    """Joint name -> index in ``qpos`` of the person."""
+    model = skeleton().compile()
+    return {model.joint(k).name: k for k in range(model.njnt)}
+
+
+@lru_cache
+def hand_postures() -> dict[str, dict[str, float]]:
+    """Posture name -> joint (without side) -> degrees."""
+    with resource("assets", "people", "hands.toml").open("rb") as file:
+        raw = tomllib.load(file)
+    return {
+        name: {
+            f"{finger}_{joint}": float(angle)
+            for finger, angles in fingers.items()
+            for joint, angle in zip(_FINGER[finger], angles, strict=True)
+        }
+        for name, fingers in raw.items()
+    }
+
+
+@lru_cache
+def pose(name: str, mirrored: bool = False) -> Array:
+    """Angles (nq,) in radians beyond standing at rest with hanging hands; slides are in statures."""
+    out = np.zeros(len(joints()))
+    for key, value in tables()["pose"][name].items():
+        side = key[:2] if key[:2] in ("r_", "l_") else ""
+        if mirrored and side:
+            side = "l_" if side == "r_" else "r_"
+        stem = key[2:] if side else key
+        if stem == "hand":
+            out += hand_offset(value, side)
+            continue
+        sign = -1.0 if mirrored and stem in _ODD else 1.0
+        out[joints()[side + stem]] += sign * (value if stem in ("root_x", "root_y", "root_z") else np.radians(value))
+    return out
+
+
+def hand_offset(posture: str, side: str) -> Array:
+    """Angles (nq,) in radians that turn a relaxed hand of ``side`` (``r_`` or ``l_``) into ``posture``."""
+    out = np.zeros(len(joints()))
+    relaxed = hand_postures()["relaxed"]
+    for joint, angle in hand_postures()[posture].items():
+        out[joints()[side + joint]] = np.radians(angle - relaxed[joint])
+    return out
+
+
+@lru_cache
+def motions() -> dict[str, tuple[Motion, ...]]:
+    """Label -> the ways it is performed; mirrored motions are resolved."""
+    rows = tables()["motion"]
+    own = [_motion(row, row["label"], mirrored=False) for row in rows if "steps" in row]
+    for row in rows:
+        if "mirror_of" in row:
+            twins = [other for other in rows if other["label"] == row["mirror_of"]]
+            own += [_motion(twin, row["label"], mirrored=True) for twin in twins]
+    labels = dict.fromkeys(motion.label for motion in own)
+    return {label: tuple(m for m in own if m.label == label) for label in labels}
+
+
+def _motion(row: Mapping[str, Any], label: str, mirrored: bool) -> Motion:
+    return Motion(
+        label=label,
+        action=row.get("action", label),
+        steps=tuple(row["steps"]),
+        start=tuple(row.get("from", ("rest",))),
+        mirrored=mirrored,
+        either_side=bool(row.get("either_side", False)),
+        reach=float(row.get("reach", 0.25)),
+        weight=float(row.get("weight", 1.0)),
+    )
