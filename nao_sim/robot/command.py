@@ -1,7 +1,7 @@
 """The command layer: what a target goes through before it reaches a motor.
 
-NAOqi's order: range check, anti-collision tables, then a set-point every 20 ms that never runs faster than the motor's
-nominal speed. The motor boards interpolate between set-points.
+NAOqi's order: range check, anti-collision tables, then a set-point every 20 ms that gains speed no faster than the
+motor can follow and never runs faster than its nominal speed. The motor boards interpolate between set-points.
 """
 
 from __future__ import annotations
@@ -18,6 +18,9 @@ from nao_sim.robot.joints import ACTUATED, joint_table, resolve
 
 TOLERANCE_RAD = 1e-9
 """Rounding that a range check forgives; the angle is then put exactly on the limit."""
+
+_CREEP_RAD_S = 0.3
+"""Speed at which a joint may finish the last bit to the end of its range."""
 
 
 @lru_cache(maxsize=256)
@@ -51,7 +54,9 @@ class CommandLayer:
         self.low, self.high = table.range_rad(limits).T.copy()
         self._least, self._most = self.low - TOLERANCE_RAD, self.high + TOLERANCE_RAD
         self.max_speed = table.max_speed_rad("nominal")
-        self._step = self.max_speed * period
+        self._acceleration = np.array([joint.acceleration for joint in table.joints])
+        self._period = period
+        self._speed = np.zeros(len(ACTUATED))
         self.targets = np.zeros(len(ACTUATED))
         self.setpoint = np.zeros(len(ACTUATED))
 
@@ -59,6 +64,7 @@ class CommandLayer:
         """Start from ``(25,)`` angles: targets and set-point alike."""
         self.targets = clamp_pairs(np.clip(angles, self.low, self.high))
         self.setpoint = self.targets.copy()
+        self._speed = np.zeros(len(ACTUATED))
 
     def set(self, names: str | Sequence[str], angles: ArrayLike) -> None:
         """Set the targets of some joints, rad (hands: open fraction).
@@ -97,9 +103,26 @@ class CommandLayer:
         raise AngleRangeError(ACTUATED[row], float(targets[row]), float(self.low[row]), float(self.high[row]))
 
     def advance(self) -> np.ndarray:
-        """Move the set-point one control period towards the targets and return it, ``(25,)``."""
-        previous = self.setpoint
-        setpoint = previous + np.minimum(np.maximum(self.targets - previous, -self._step), self._step)
-        hold_pairs(previous, setpoint, self.targets, self._step)
+        """Move the set-point one control period towards the targets and return it, ``(25,)``.
+
+        Its speed is at most the motor's nominal one, grows no faster than the joint's acceleration, and falls towards
+        the ends of the range, so that no joint runs into its stop.
+        """
+        previous, period = self.setpoint, self._period
+        speed = np.minimum(self.max_speed, self._speed + self._acceleration * period)
+        up = np.minimum(speed, self._stopping(self.high - previous))
+        down = np.minimum(speed, self._stopping(previous - self.low))
+        step = np.minimum(np.maximum(self.targets - previous, -down * period), up * period)
+        setpoint = previous + step
+        hold_pairs(previous, setpoint, self.targets, speed * period)
+        self._speed = np.abs(setpoint - previous) / period
         self.setpoint = setpoint
         return setpoint
+
+    def _stopping(self, room: np.ndarray) -> np.ndarray:
+        """Return the speed from which a joint still stops within ``room`` rad: v² / 2a plus the period it goes on."""
+        room = np.maximum(room, 0)
+        slow = self._acceleration * self._period / 2
+        return np.maximum(
+            np.sqrt(slow * slow + 2 * self._acceleration * room) - slow, np.minimum(room / self._period, _CREEP_RAD_S)
+        )

@@ -46,6 +46,7 @@ class Joint:
         v5: range of the H25 V5.0, rad.
         thesis_sign: -1 where table A1-1 counts the other way round.
         motor, reduction, effort_nm: its motor, the gear ratio, and the torque limit at the joint.
+        acceleration: how fast set-points gain speed, rad/s².
         follows: the joint whose motor turns this one too, or None.
     """
 
@@ -60,6 +61,7 @@ class Joint:
     motor: Motor
     reduction: float
     effort_nm: float
+    acceleration: float
     follows: str | None
 
     @property
@@ -128,7 +130,7 @@ class JointTable:
         return np.array([joint.effort_nm for joint in self.joints])
 
 
-def _joint(row: dict, motors: dict[str, Motor]) -> Joint:
+def _joint(row: dict, motors: dict[str, Motor], controllers: dict[str, dict[str, float]]) -> Joint:
     if "fraction" in row:
         thesis = v5 = tuple(row["fraction"])
     else:
@@ -146,6 +148,7 @@ def _joint(row: dict, motors: dict[str, Motor]) -> Joint:
         motor=motors[row["motor"]],
         reduction=row["reduction"],
         effort_nm=row["effort_nm"],
+        acceleration=controllers[str(row["reduction"])]["acceleration_rad_s2"],
         follows=row.get("follows"),
     )
 
@@ -156,7 +159,7 @@ def joint_table() -> JointTable:
     motor_data = tomllib.loads(resource("assets", "nao", "motors.toml").read_text("utf-8"))
     motors = {name: Motor(**motor_data[name]) for name in ("type1", "type2")}
     rows = tomllib.loads(resource("assets", "nao", "joints.toml").read_text("utf-8"))["joint"]
-    return JointTable(tuple(_joint(row, motors) for row in rows))
+    return JointTable(tuple(_joint(row, motors, motor_data["controller"]) for row in rows))
 
 
 BODY: tuple[str, ...] = joint_table().names
