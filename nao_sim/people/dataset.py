@@ -123,10 +123,14 @@ def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[i
 
 def row(job: Job) -> dict[str, Any]:
     """The manifest row of a clip; everything in it follows from the job, so it need not be stored while filming."""
-    shot = job.shot()
+    return shot_row(job.file, job.shot()) | {"seed": job.seed}
+
+
+def shot_row(file: str, shot: Shot) -> dict[str, Any]:
+    """The manifest row of ``shot`` stored at ``file``."""
     person, performance = shot.person, shot.performance
     return {
-        "file": job.file,
+        "file": file,
         "label": shot.label,
         "person": person.name,
         "take": shot.take,
@@ -144,7 +148,6 @@ def row(job: Job) -> dict[str, Any]:
         "tempo": round(performance.tempo, 3),
         "size": round(performance.size, 3),
         "cycles": performance.cycles,
-        "seed": job.seed,
     }
 
 

@@ -26,7 +26,10 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 
 @dataclass(frozen=True)
 class Part:
-    """What is coloured as one: vertices and outward normals (n, 3) at the build pose, faces (m, 3), weights (n, nbody)."""
+    """What is coloured as one, at the build pose.
+
+    Vertices and outward normals (n, 3) in m, faces (m, 3), and how much each vertex hangs on each body, (n, nbody).
+    """
 
     name: str
     vertices: Array

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import cv2
 import numpy as np
 
-from nao_sim.people.errors import FilmError
+from nao_sim.people.avi import AviWriter
 from nao_sim.people.motions import joints
+from nao_sim.people.persons import FINGERS
 from nao_sim.people.sensor import Exposure, Image
 from nao_sim.people.shots import Shot
 from nao_sim.people.stage import Stage
@@ -50,9 +50,7 @@ def _exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:
     offsets = np.linspace(0, shutter, _BLUR_STEPS)
     angles = np.stack([shot.performance.angles(times + offset) for offset in offsets], axis=1)
     turning = np.abs(angles[:, -1] - angles[:, 0])
-    body = [
-        k for name, k in joints().items() if not any(f in name for f in ("thumb", "index", "middle", "ring", "little"))
-    ]
+    body = [k for name, k in joints().items() if not any(finger in name for finger in ("thumb", *FINGERS))]
     fast = turning[:, body].max(axis=1) > _BLUR_RAD
     return angles, [_BLUR_STEPS if moving else 1 for moving in fast]
 
@@ -61,21 +59,9 @@ def write_clip(stage: Stage, shot: Shot, path: Path) -> None:
     """Render ``shot`` to ``path`` as MJPG in AVI, atomically.
 
     Raises:
-        FilmError: the encoder or the disk refuses.
+        FilmError: the encoder refuses.
+        OSError: the disk does.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.stem}.{os.getpid()}.part.avi")
-    writer = cv2.VideoWriter(
-        str(part), cv2.CAP_OPENCV_MJPEG, cv2.VideoWriter.fourcc(*"MJPG"), shot.fps, (shot.width, shot.height)
-    )
-    try:
-        if not writer.isOpened():
-            raise FilmError(f"{part} cannot be written; check the folder's permissions and free space")
-        writer.set(cv2.VIDEOWRITER_PROP_QUALITY, shot.sensor.quality)
+    with AviWriter(path, shot.width, shot.height, shot.fps, shot.sensor.quality) as writer:
         for frame in roll(stage, shot):
             writer.write(frame)
-        writer.release()
-        os.replace(part, path)
-    finally:
-        writer.release()
-        part.unlink(missing_ok=True)

@@ -16,17 +16,8 @@ from nao_sim.resources import resource
 
 IRRELEVANT = "irrelevant"
 # Angles that change sign when left and right are exchanged: turns about the vertical and the forward axis.
-_ODD = (
-    "root_y",
-    "root_yaw",
-    "root_roll",
-    "waist_roll",
-    "waist_yaw",
-    "chest_roll",
-    "chest_yaw",
-    "head_yaw",
-    "head_roll",
-)
+_TRUNK = ("root", "waist", "chest", "head")
+_ODD = ("root_y", *(f"{body}_{turn}" for body in _TRUNK for turn in ("roll", "yaw")))
 _FINGER = {"thumb": ("abduct", "oppose", "roll", "mcp", "ip")} | dict.fromkeys(
     ("index", "middle", "ring", "little"), ("spread", "mcp", "pip", "dip")
 )

@@ -89,11 +89,10 @@ class Performance:
     def _gesture(self, times: Array) -> Array:
         """Angles (n, nq) of the strokes alone, each joint with its own lag."""
         out = np.zeros((len(times), len(self.base)))
-        lags = {name: lag for name, lag in _LAG_SECONDS.items()}
         groups: dict[float, list[int]] = {}
         for name, k in joints().items():
             stem = name[2:] if name[:2] in ("r_", "l_") else name
-            groups.setdefault(lags.get(stem, 0.0), []).append(k)
+            groups.setdefault(_LAG_SECONDS.get(stem, 0.0), []).append(k)
         for lag, members in groups.items():
             out[:, members] = self._course(times - lag)[:, members]
         return out

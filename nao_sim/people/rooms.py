@@ -88,7 +88,7 @@ def draw_room(rng: Generator, clutter: float) -> list[Item]:
     ]
     if rng.random() < 0.3:  # a lower half of another colour, as on panelled or partitioned walls
         room.append(Item(BOX, (-depth, 0, 0.5), (0.02, 9, rng.uniform(0.3, 0.7)), _colour(rng, 0.2, 0.8, 0.3), "plain"))
-    pieces = int(round(clutter * rng.integers(3, 12)))
+    pieces = round(clutter * int(rng.integers(3, 12)))
     for _ in range(pieces):
         room += _PIECES[int(rng.integers(len(_PIECES)))](rng, depth)
     return room[:MAX_ITEMS]
@@ -122,9 +122,8 @@ def _picture(rng: Generator, depth: float) -> list[Item]:
 def _window(rng: Generator, depth: float) -> list[Item]:
     place = (-depth + 0.012, _across(rng), rng.uniform(1.4, 1.9))
     glow = rng.uniform(0.85, 1.0)
-    return [
-        Item(BOX, place, (rng.uniform(0.4, 0.9), rng.uniform(0.4, 0.7), 0.01), (glow, glow, 1.0), "window", _FACING)
-    ]
+    size = (rng.uniform(0.4, 0.9), rng.uniform(0.4, 0.7), 0.01)
+    return [Item(BOX, place, size, (glow, glow, 1.0), "window", _FACING)]
 
 
 def _door(rng: Generator, depth: float) -> list[Item]:

@@ -82,7 +82,7 @@ def surface_net(field: Array, origin: Array, spacing: float) -> tuple[Array, NDA
 
 
 def _add_crossings(field: Array, inside: NDArray[np.bool_], axis: int, total: Array, count: Array) -> None:
-    """Add where the surface crosses the four edges along ``axis`` of every cell (cell units) to ``total``, ``count``."""
+    """Add where the surface crosses the four edges along ``axis`` of each cell (in cells) to ``total``, ``count``."""
     lower = [slice(None)] * 3
     upper = [slice(None)] * 3
     lower[axis], upper[axis] = slice(0, -1), slice(1, None)
