@@ -74,6 +74,9 @@ def dress(model: mujoco.MjModel, person: Person, outfit: Outfit) -> None:
     dark = (0.07, 0.05, 0.045)
     colours |= {"eyes": dark, "brows": _shade(person.hair, 0.6), person.hair_style: person.hair}
     r, g, b = person.skin
+    # Palms are paler than the rest of dark skin.
+    pale = 0.4 * (1 - (r + g + b) / 3)
+    colours["hand"] = (r + pale * (0.78 - r), g + pale * (0.56 - g), b + pale * (0.46 - b))
     colours["lips"] = (r * 0.85, g * 0.62, b * 0.62)
     shown = {person.hair_style}
     if outfit.legs == "skirt":

@@ -20,6 +20,9 @@ import pyarrow.parquet as pq
 from nao_sim.people.errors import FilmError
 from nao_sim.people.film import write_clip
 from nao_sim.people.motions import IRRELEVANT, motions
+from nao_sim.people.persons import Person
+from nao_sim.people.photos import DETAIL as PHOTO_DETAIL
+from nao_sim.people.photos import Photo, draw_photo, postures, write_photo
 from nao_sim.people.shots import Shot, draw_cast, draw_shot
 from nao_sim.people.stage import Stage
 
@@ -39,24 +42,38 @@ class Job:
     @property
     def file(self) -> str:
         """Path below the data set's folder."""
-        return f"{self.label}/p{self.person:03d}_{self.take:02d}.avi"
+        return f"{self.label}/p{self.person:03d}_{self.take:02d}.{'jpg' if self.is_photo else 'avi'}"
+
+    @property
+    def is_photo(self) -> bool:
+        """Whether the label is a static posture."""
+        return self.label in postures()
 
     def shot(self) -> Shot:
-        """Draw the shot."""
-        person = draw_cast(self.seed, self.persons, CHILDREN)[self.person]
-        return draw_shot(self.seed, self.label, person, self.take)
+        """Draw the shot of a clip."""
+        return draw_shot(self.seed, self.label, self._performer(), self.take)
+
+    def photo(self) -> Photo:
+        """Draw the photo of a static posture."""
+        return draw_photo(self.seed, self.label, self._performer(), self.take)
+
+    def _performer(self) -> Person:
+        return draw_cast(self.seed, self.persons, CHILDREN)[self.person]
 
 
 def plan(persons: int, takes: int, seed: int, labels: Sequence[str] | None = None, irrelevant: int = 0) -> list[Job]:
     """List the clips of a data set: every person performs every label ``takes`` times, plus irrelevant motions.
 
+    Without ``labels`` these are the dynamic classes.
+
     Raises:
         FilmError: an unknown label, or a number that is not positive.
     """
-    known = [label for label in motions() if label != IRRELEVANT]
+    dynamic = [label for label in motions() if label != IRRELEVANT]
+    known = [*dynamic, *postures()]
     if persons < 1 or takes < 1 or irrelevant < 0:
         raise FilmError("a data set needs at least one person and one take, and no fewer than 0 irrelevant clips")
-    wanted = list(known if labels is None else labels)
+    wanted = list(dynamic if labels is None else labels)
     unknown = [label for label in wanted if label not in known]
     if unknown:
         raise FilmError(f"class '{unknown[0]}' cannot be filmed; known: {', '.join(known)}")
@@ -81,40 +98,56 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
     for job in jobs:
         if (out / job.file).exists():
             done(0)
+    todo.sort(key=lambda job: job.is_photo)  # one change of stage
     if processes == 1:
-        with Stage() as stage:
+        try:
             for job in todo:
-                done(_film_one(stage, job, out))
+                done(_film_one(job, out))
+        finally:
+            _open.close()
     else:
         _film_many(todo, out, processes, done)
     write_manifest(out, [row(job) for job in jobs])
 
 
-_stage: Stage | None = None
+class _OpenStage:
+    """The one stage of this process, at the detail asked for last."""
+
+    def __init__(self) -> None:
+        self._stage: Stage | None = None
+        self._detail = 0.0
+
+    def at(self, detail: float) -> Stage:
+        if self._stage is None or detail != self._detail:
+            self.close()
+            self._stage, self._detail = Stage(detail), detail
+        return self._stage
+
+    def close(self) -> None:
+        if self._stage is not None:
+            self._stage.close()
+            self._stage = None
 
 
-def _open_stage() -> None:
-    global _stage
-    _stage = Stage()
+_open = _OpenStage()
 
 
-def _film_job(job: Job, out: Path) -> int:
-    assert _stage is not None
-    return _film_one(_stage, job, out)
-
-
-def _film_one(stage: Stage, job: Job, out: Path) -> int:
+def _film_one(job: Job, out: Path) -> int:
+    """Render one clip or photo; returns its number of frames."""
+    if job.is_photo:
+        write_photo(_open.at(PHOTO_DETAIL), job.photo(), out / job.file)
+        return 1
     shot = job.shot()
-    write_clip(stage, shot, out / job.file)
+    write_clip(_open.at(1.0), shot, out / job.file)
     return shot.frames
 
 
 def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], None]) -> None:
     # An OpenGL context does not survive a fork.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context, initializer=_open_stage) as pool:
+    with ProcessPoolExecutor(processes, mp_context=context) as pool:
         try:
-            for future in as_completed([pool.submit(_film_job, job, out) for job in jobs]):
+            for future in as_completed([pool.submit(_film_one, job, out) for job in jobs]):
                 done(future.result())
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -123,7 +156,32 @@ def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[i
 
 def row(job: Job) -> dict[str, Any]:
     """The manifest row of a clip; everything in it follows from the job, so it need not be stored while filming."""
-    return shot_row(job.file, job.shot()) | {"seed": job.seed}
+    made = photo_row(job.file, job.photo()) if job.is_photo else shot_row(job.file, job.shot())
+    return made | {"seed": job.seed}
+
+
+def photo_row(file: str, photo: Photo) -> dict[str, Any]:
+    """The manifest row of ``photo`` stored at ``file``: a clip of one frame."""
+    return {
+        "file": file,
+        "label": photo.label,
+        "person": photo.person.name,
+        "take": photo.take,
+        "action": photo.label,
+        "fps": 0.0,
+        "frames": 1,
+        "width": photo.width,
+        "height": photo.height,
+        "start": 0,
+        "end": 0,
+        "child": photo.person.is_child,
+        "stature": round(photo.person.stature, 3),
+        "framing": "hand" if photo.close else "person",
+        "sleeves": photo.outfit.sleeves,
+        "tempo": 0.0,
+        "size": 0.0,
+        "cycles": 0,
+    }
 
 
 def shot_row(file: str, shot: Shot) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from nao_sim.people.surface import Array
 
 MAX_ITEMS = 40
-_FACING = np.array([0.5, 0.5, 0.5, 0.5])  # turns a box's z to +x and its y up: its texture faces the camera
+FACING = np.array([0.5, 0.5, 0.5, 0.5])  # turns a box's z to +x and its y up: its texture faces the camera
 BOX, BALL = int(mujoco.mjtGeom.mjGEOM_BOX), int(mujoco.mjtGeom.mjGEOM_ELLIPSOID)
 # Texture -> repeats per metre; 0 stretches one copy over the item.
 TEXTURES = {
@@ -84,7 +84,7 @@ def draw_room(rng: Generator, clutter: float) -> list[Item]:
     floor = str(rng.choice(["planks", "noise", "tiles", "plain"]))
     room = [
         Item(BOX, (0, 0, -0.1), (9, 9, 0.1), _colour(rng, 0.25, 0.75, 0.25), floor),
-        Item(BOX, (-depth - 0.1, 0, 1.6), (9, 3.0, 0.1), wall, texture, _FACING),
+        Item(BOX, (-depth - 0.1, 0, 1.6), (9, 3.0, 0.1), wall, texture, FACING),
     ]
     if rng.random() < 0.3:  # a lower half of another colour, as on panelled or partitioned walls
         room.append(Item(BOX, (-depth, 0, 0.5), (0.02, 9, rng.uniform(0.3, 0.7)), _colour(rng, 0.2, 0.8, 0.3), "plain"))
@@ -116,14 +116,14 @@ def _across(rng: Generator) -> float:
 def _picture(rng: Generator, depth: float) -> list[Item]:
     size = (rng.uniform(0.12, 0.5), rng.uniform(0.12, 0.45), 0.01)
     place = (-depth + 0.01, _across(rng), rng.uniform(1.1, 2.1))
-    return [Item(BOX, place, size, _colour(rng, 0.4, 1, 0.3), str(rng.choice(["poster", "plain", "stripes"])), _FACING)]
+    return [Item(BOX, place, size, _colour(rng, 0.4, 1, 0.3), str(rng.choice(["poster", "plain", "stripes"])), FACING)]
 
 
 def _window(rng: Generator, depth: float) -> list[Item]:
     place = (-depth + 0.012, _across(rng), rng.uniform(1.4, 1.9))
     glow = rng.uniform(0.85, 1.0)
     size = (rng.uniform(0.4, 0.9), rng.uniform(0.4, 0.7), 0.01)
-    return [Item(BOX, place, size, (glow, glow, 1.0), "window", _FACING)]
+    return [Item(BOX, place, size, (glow, glow, 1.0), "window", FACING)]
 
 
 def _door(rng: Generator, depth: float) -> list[Item]:
@@ -131,13 +131,13 @@ def _door(rng: Generator, depth: float) -> list[Item]:
     rgb = (0.86 * tone, 0.66 * tone, 0.5 * tone) if rng.random() < 0.6 else _colour(rng, 0.3, 0.95, 0.2)
     y = _across(rng)
     knob = Item(BALL, (-depth + 0.08, y + 0.36, 1.0), (0.04, 0.04, 0.04), (0.5, 0.5, 0.5))
-    return [Item(BOX, (-depth + 0.011, y, 1.0), (0.43, 1.0, 0.01), rgb, "plain", _FACING), knob]
+    return [Item(BOX, (-depth + 0.011, y, 1.0), (0.43, 1.0, 0.01), rgb, "plain", FACING), knob]
 
 
 def _shelf(rng: Generator, depth: float) -> list[Item]:
     y, width, height = _across(rng), rng.uniform(0.35, 0.8), rng.uniform(0.4, 1.0)
     body = Item(BOX, (-depth + 0.15, y, height), (0.14, width, height), _colour(rng, 0.2, 0.7, 0.15), "plain")
-    front = Item(BOX, (-depth + 0.295, y, height), (width * 0.95, height * 0.96, 0.01), (1, 1, 1), "books", _FACING)
+    front = Item(BOX, (-depth + 0.295, y, height), (width * 0.95, height * 0.96, 0.01), (1, 1, 1), "books", FACING)
     return [body, front]
 
 
@@ -173,7 +173,7 @@ def _plant(rng: Generator, depth: float) -> list[Item]:
 
 def _curtain(rng: Generator, depth: float) -> list[Item]:
     place = (-depth + 0.02, _across(rng), 1.3)
-    return [Item(BOX, place, (rng.uniform(0.2, 0.6), 1.2, 0.01), _colour(rng, 0.2, 0.9, 0.35), "curtain", _FACING)]
+    return [Item(BOX, place, (rng.uniform(0.2, 0.6), 1.2, 0.01), _colour(rng, 0.2, 0.9, 0.35), "curtain", FACING)]
 
 
 def _lamp(rng: Generator, depth: float) -> list[Item]:

@@ -68,8 +68,8 @@ def draw_shot(seed: int, label: str, person: Person, take: int, action: str | No
     """Draw the clip ``take`` of ``person`` performing ``label``."""
     table = cameras()
     rng = generator(seed, label, person.name, take, "scene")
-    width, height, _ = _weighted(table["sizes"], rng)
-    fps = float(_weighted(table["frame_rates"], rng)[0])
+    width, height, _ = weighted(table["sizes"], rng)
+    fps = float(weighted(table["frame_rates"], rng)[0])
     framing, camera, half_width = _frame(label, person, width / height, table, rng)
     return Shot(
         label=label,
@@ -78,7 +78,7 @@ def draw_shot(seed: int, label: str, person: Person, take: int, action: str | No
         outfit=draw_outfit(rng),
         room=draw_room(rng, float(rng.uniform(0, 1))),
         camera=camera,
-        light=_light(table["light"], rng),
+        light=draw_light(rng),
         sensor=Sensor.draw(table["sensor"], rng),
         performance=perform(label, person, generator(seed, label, person.name, take, "act"), half_width, action),
         width=int(width),
@@ -88,8 +88,8 @@ def draw_shot(seed: int, label: str, person: Person, take: int, action: str | No
     )
 
 
-def _weighted(rows: Sequence[Sequence[float]], rng: Generator) -> Sequence[float]:
-    """A row drawn by the share in its last column."""
+def weighted(rows: Sequence[Sequence[float]], rng: Generator) -> Sequence[float]:
+    """Draw a row by the share in its last column."""
     share = np.array([row[-1] for row in rows], dtype=float)
     return rows[int(rng.choice(len(rows), p=share / share.sum()))]
 
@@ -124,8 +124,9 @@ def _frame(
     return name, camera, float(high * aspect / 2)
 
 
-def _light(table: dict[str, Any], rng: Generator) -> Light:
+def draw_light(rng: Generator) -> Light:
     """A key light from somewhere in front and above, a weaker fill from the other side, and ambient light."""
+    table = cameras()["light"]
 
     def strength(name: str) -> tuple[float, float, float]:
         r, g, b = np.clip(rng.uniform(*table[name]) * (1 + rng.normal(0, table["warmth"], 3)), 0, 1)

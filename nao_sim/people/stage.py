@@ -6,6 +6,7 @@ alone and lays it over the room by depth. New textures, contexts and compilation
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -102,6 +103,18 @@ class Stage:
         """Put ``person`` in ``outfit`` on the stage."""
         self.figure.reshape(self.model, body_scales(person), thicknesses(outfit))
         dress(self.model, person, outfit)
+
+    def show_only(self, parts: Sequence[str]) -> None:
+        """Hide all of the person that is cast but these parts."""
+        for skin in range(self.model.nskin):
+            if mujoco.mj_id2name(self.model, mujoco.mjtObj.mjOBJ_SKIN, skin) not in parts:
+                self.model.skin_group[skin] = HIDDEN_GROUP
+
+    def body_position(self, angles: Array, body: str) -> Array:
+        """World position (3,) in m of a body of the person at ``angles`` (nq,)."""
+        self.data.qpos[:] = angles
+        mujoco.mj_kinematics(self.model, self.data)
+        return np.array(self.data.body(body).xpos)
 
     def furnish(self, room: list[Item]) -> None:
         """Replace the room."""
