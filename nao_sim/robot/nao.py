@@ -189,20 +189,20 @@ class Nao:
         name: str | mujoco.MjvCamera = "CameraTop",
         width: int = WIDTH_PX,
         height: int = HEIGHT_PX,
-        shadows: bool = False,
+        fine: bool = False,
     ) -> np.ndarray:
         """Return what a camera sees, ``(height, width, 3)`` uint8 RGB.
 
         Args:
             name: ``"CameraTop"``, ``"CameraBottom"``, a camera of the scene, or a free camera.
             width, height: pixels.
-            shadows: off by default, they cost more than the rest of the picture.
+            fine: with shadows and smoothed edges, at several times the cost.
 
         Raises:
             UnknownNameError: no such camera.
             RenderError: this machine cannot render; the message says what to install.
         """
-        return self._cameras.render(self.data, name, width, height, shadows)
+        return self._cameras.render(self.data, name, width, height, fine)
 
     def close(self) -> None:
         """Free the renderers, if any picture was taken."""
