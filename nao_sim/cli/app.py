@@ -13,9 +13,15 @@ from nao_sim.errors import NaoSimError
 COMMANDS = {
     "check": "check",
     "dataset": "dataset",
+    "export": "export",
     "film": "film",
     "gestures": "gestures",
     "imitate": "imitate",
+    "recognize": "recognize",
+    "train": "train",
+    "play": "play",
+    "stress": "stress",
+    "validate": "validate",
 }
 
 EXIT_ERROR = 2

@@ -1,0 +1,81 @@
+"""``nao-sim recognize``: what did the person on this video or photo do?"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+
+def recognize(
+    video: Annotated[Path, typer.Argument(help="a video, or a photo of a hand posture")],
+    frames: Annotated[str | None, typer.Option(help="FIRST:LAST frame, both included, as 6:44")] = None,
+    among: Annotated[str | None, typer.Option(help="gestures the context allows, separated by commas")] = None,
+    every: Annotated[bool, typer.Option("--all", help="find and answer every gesture of a long video")] = False,
+    explain: Annotated[Path | None, typer.Option(help="folder for pictures of every intermediate stage")] = None,
+    database: Annotated[Path | None, typer.Option(help="feature database; the shipped one if left out")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
+) -> None:
+    """Name the gesture of VIDEO, or say that it is none of the known ones."""
+    from nao_sim.resources import resource
+    from recognizer import Recognizer, open_clip, parse_frame_range
+
+    clip = open_clip(video, parse_frame_range(frames) if frames else None)
+    labels = [name.strip() for name in among.split(",")] if among else None
+    recognizer = Recognizer.load(database or resource("assets", "databases", "dynamic.parquet"))
+    with _progress() as update:
+        if every:
+            answers = recognizer.recognize_all(clip, labels, update)
+        else:
+            answers = [recognizer.recognize(clip, labels, update)]
+    if explain is not None:
+        from recognizer.explain import explain as draw
+
+        for number, answer in enumerate(answers, 1):
+            draw(answer, explain / f"{number:02d}" if every else explain)
+    if as_json:
+        plain = [answer.to_dict() for answer in answers]
+        typer.echo(json.dumps(plain if every else plain[0]))
+    else:
+        _print(answers)
+
+
+class _progress:
+    """A progress bar on standard error that shows only on a terminal and goes away when done."""
+
+    def __enter__(self) -> Any:
+        from rich.console import Console
+        from rich.progress import Progress
+
+        self.bar = Progress(console=Console(stderr=True), transient=True)
+        self.bar.start()
+        self.task = self.bar.add_task("reading frames", total=None)
+        return lambda done, total: self.bar.update(self.task, completed=done, total=total)
+
+    def __exit__(self, *_: object) -> None:
+        self.bar.stop()
+
+
+def _print(answers: list[Any]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console()
+    if not answers:
+        console.print("no motion that could be a gesture")
+        return
+    table = Table("from [s]", "to [s]", "gesture", "family", "distance", "limit", "neighbours")
+    for a in answers:
+        shown = [n.action if n.label == "irrelevant" else n.label for n in a.neighbours[:3]]
+        table.add_row(
+            f"{a.start:.1f}", f"{a.end:.1f}", a.label or "[red]rejected", a.family,
+            f"{a.distance:.2f}", f"{a.threshold:.2f}", ", ".join(shown),
+        )  # fmt: skip
+    console.print(table)
+    for a in answers:
+        if a.rejected:
+            console.print(f"{a.start:.1f} s: {a.reason}")
+    for warning in dict.fromkeys(w for a in answers for w in a.warnings):
+        console.print(f"warning: {warning}", style="yellow")
