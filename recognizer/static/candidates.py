@@ -1,0 +1,129 @@
+"""Everything in a photo that may be a hand: objects of several segmentations, each looked at closely.
+
+The skin box of eq. 1 after Gray-World comes first; without Gray-World and the departure from a plain background stand
+in where light or skin defeat it. Which candidate is the hand is decided later, by its distance to known hands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from recognizer.static import background
+from recognizer.static.errors import NoSkinError
+from recognizer.static.hand import most_featured
+from recognizer.static.noise import clean
+from recognizer.static.palm import HandFrame, hand_frames
+from recognizer.static.skin import gray_world, gray_world_gains, skin_mask
+from recognizer.static.types import Floats, Image, Mask
+
+WORK_SIDE = 200  # pixels: longer side at which objects are looked at
+MOST_OBJECTS = 4  # of one segmentation
+SMALLEST_OBJECT = 0.004  # of the picture's area
+CLOSER = 0.6  # of the longer side: smaller objects are cut out of the photo and looked at in detail
+PLAIN = 0.7  # share of the border that one smooth colour surface must explain
+TOO_MUCH = 0.8  # of the picture's area: then the background was taken for skin
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One object that may be a hand, with one guess of which way it points."""
+
+    segmentation: str  # "skin", "skin without Gray-World" or "background"
+    number: int  # of the object within its segmentation; the most hand-like by feature pixels is 0
+    image: Image  # (h, w, 3) what the mask belongs to: the photo or a cut-out of it, at working size
+    mask: Mask  # (h, w)
+    frame: HandFrame
+    box: Floats  # (4,) x, y, width, height of the object as fractions of the photo
+
+
+def to_work_size(bgr: Image, side: int = WORK_SIDE) -> Image:
+    """Return the picture with its longer side at ``side`` pixels; cubic when it grows, averaged when it shrinks."""
+    scale = side / max(bgr.shape[:2])
+    how = cv2.INTER_CUBIC if scale > 1 else cv2.INTER_AREA
+    size = max(1, round(bgr.shape[1] * scale)), max(1, round(bgr.shape[0] * scale))
+    return cv2.resize(bgr, size, interpolation=how)
+
+
+def candidates(bgr: Image) -> list[Candidate]:
+    """Return every candidate of every segmentation, likeliest segmentation first.
+
+    Args:
+        bgr: (h, w, 3) uint8 photo of any size.
+
+    Raises:
+        NoSkinError: no segmentation finds an object.
+    """
+    work = to_work_size(bgr)
+    gains = gray_world_gains(work)
+    found = [
+        candidate
+        for name, mask in segmentations(work, gains)
+        for number, piece in enumerate(objects(mask))
+        for candidate in _closer(bgr, work, gains, name, number, piece)
+    ]
+    if not found:
+        raise NoSkinError(
+            "no skin-coloured object in the photo, and none that stands out from a plain background; "
+            "use more light, or a background unlike skin"
+        )
+    return found
+
+
+def segmentations(bgr: Image, gains: Floats) -> Iterator[tuple[str, Mask]]:
+    """Yield the name and the cleaned mask of each segmentation that found something."""
+    for name in ("skin", "skin without Gray-World", "background"):
+        mask = _segment(name, bgr, gains)
+        if mask is not None and 0 < mask.mean() < TOO_MUCH:
+            yield name, mask
+
+
+def _segment(name: str, bgr: Image, gains: Floats) -> Mask | None:
+    if name == "skin":
+        return clean(skin_mask(gray_world(bgr, gains)))
+    if name == "skin without Gray-World":
+        return clean(skin_mask(bgr))
+    found = background.departure(bgr)
+    return clean(background.foreground(found)) if found.plainness >= PLAIN else None
+
+
+def objects(mask: Mask) -> list[Mask]:
+    """Return the objects of a mask, the one with most feature pixels first, then by size; small ones are left out."""
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+    areas = stats[:, cv2.CC_STAT_AREA]
+    order = [int(i) for i in np.argsort(-areas) if i > 0 and areas[i] >= SMALLEST_OBJECT * mask.size][:MOST_OBJECTS]
+    if not order:
+        return []
+    kept = np.isin(labels, order)
+    first = int(labels[most_featured(kept)][0])
+    order.sort(key=lambda label: label != first)
+    return [labels == label for label in order]
+
+
+def _closer(bgr: Image, work: Image, gains: Floats, name: str, number: int, piece: Mask) -> Iterator[Candidate]:
+    """Yield an object's candidates: as seen, or cut out of the photo with a margin when it is small in it."""
+    x, y, width, height = cv2.boundingRect(piece.astype(np.uint8))
+    rows, columns = piece.shape
+    box = np.array([x / columns, y / rows, width / columns, height / rows])
+    image, mask = work, piece
+    if max(width, height) < CLOSER * max(rows, columns):
+        cut = _cut_out(bgr, box)
+        image = to_work_size(cut)
+        closer = _segment(name, image, gains)
+        if closer is None or not closer.any():
+            return
+        mask = objects(closer)[0] if objects(closer) else closer
+    for frame in hand_frames(mask):
+        yield Candidate(name, number, image, mask, frame, box)
+
+
+def _cut_out(bgr: Image, box: Floats, margin: float = 0.15) -> Image:
+    """Return the part of the photo around a box, with a margin on each side as a share of the box's longer side."""
+    height, width = bgr.shape[:2]
+    x, y, w, h = box * [width, height, width, height]
+    extra = margin * max(w, h)
+    left, top = max(0, int(x - extra)), max(0, int(y - extra))
+    return bgr[top : int(np.ceil(y + h + extra)), left : int(np.ceil(x + w + extra))]

@@ -1,0 +1,158 @@
+"""A photo in, an answer out: the hand among everything that may be one, and its posture."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from recognizer.database import IRRELEVANT, Database
+from recognizer.decision import Decision
+from recognizer.errors import DatabaseError
+from recognizer.recognition import Recognition
+from recognizer.static import baseline, descriptors
+from recognizer.static.candidates import Candidate, candidates
+from recognizer.static.errors import NoHandError
+from recognizer.static.methods import method_of
+from recognizer.static.photo import as_bgr, read_photo
+from recognizer.static.types import Image
+
+# Distances of less likely guesses count this much more, so that they win only where the likely one is poor.
+SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.15, "background": 1.15}
+TILT_COST = 0.3  # added to 1 for a hand pointing down, where no arm leaves the picture to say so
+NO_HAND = 2.5  # thresholds: an object further than this from every hand is no hand
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A candidate with what its neighbours say."""
+
+    candidate: Candidate
+    decision: Decision
+    cost: float  # distance to its nearest row, with what speaks against the candidate
+
+
+class PhotoRecognizer:
+    """Names postures on photos by their nearest neighbours in a database.
+
+    Args:
+        database: of method "static" (ours) or "thesis_static".
+
+    Raises:
+        DatabaseError: a database of moving gestures, or of another feature version.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self.method = method_of(database)
+        self.database = database
+        self.model = self.method.model().fit(database)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> PhotoRecognizer:
+        """Read a recogniser from its database file."""
+        return cls(Database.load(path))
+
+    @property
+    def labels(self) -> list[str]:
+        """Postures that can be the answer."""
+        return sorted(set(self.database.labels[self.database.labels != IRRELEVANT].tolist()))
+
+    def recognize(
+        self, photo: Image | str | os.PathLike[str], among: Iterable[str] | None = None, source: str = "photo"
+    ) -> Recognition:
+        """Name the posture of the best hand on a photo.
+
+        Args:
+            photo: a path, or a picture as `recognizer.static.photo.as_bgr` takes it.
+            among: labels that the context allows; all when None.
+            source: name of a photo given as an array.
+
+        Raises:
+            PhotoError: unreadable, without skin, or without anything like a hand.
+            DatabaseError: ``among`` names an unknown posture.
+        """
+        begun = time.perf_counter()
+        if isinstance(photo, np.ndarray):
+            image = as_bgr(photo, source)
+        else:
+            image, source = read_photo(photo), str(photo)
+        read = time.perf_counter()
+        decision, warnings = self.decide(image, self._allowed(among))
+        timings = {"frames": read - begun, "recognition": time.perf_counter() - read}
+        return Recognition.of(
+            decision,
+            amplitude=None,
+            start=0.0,
+            end=0.0,
+            method=self.method.name,
+            source=source,
+            warnings=warnings,
+            timings=timings,
+        )
+
+    def decide(self, image: Image, among: set[str] | None = None) -> tuple[Decision, tuple[str, ...]]:
+        """Return what the neighbours say of the best hand, and warnings."""
+        if self.method.name == baseline.METHOD:
+            return self.model.decide(baseline.vector(image), among), ()
+        seen = self.look(image, among)
+        best = seen[0]
+        if best.decision.distance > NO_HAND * self.model.threshold_:
+            raise NoHandError(
+                f"nothing in the photo is shaped like a hand (nearest is {best.decision.distance:.3g} away from any "
+                f"known one, limit {NO_HAND * self.model.threshold_:.3g}); show the whole hand before a plain background"
+            )
+        return best.decision, _warnings(seen)
+
+    def look(self, image: Image, among: set[str] | None = None) -> list[Seen]:
+        """Return all candidates of a photo, the best hand first."""
+        seen = []
+        for candidate in candidates(image):
+            decision = self.model.decide(descriptors.describe(candidate.mask, candidate.frame), among)
+            nearest = decision.neighbours[0].distance
+            tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
+            cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
+            seen.append(Seen(candidate, decision, float(cost)))
+        return sorted(seen, key=lambda s: s.cost)
+
+    def _allowed(self, among: Iterable[str] | None) -> set[str] | None:
+        if among is None:
+            return None
+        names = set(among)
+        unknown = sorted(names - set(self.labels))
+        if unknown or not names:
+            raise DatabaseError(
+                f"unknown posture {', '.join(unknown) or '(none given)'}; known: {', '.join(self.labels)}"
+            )
+        return names
+
+
+def _warnings(seen: list[Seen]) -> tuple[str, ...]:
+    """Say so when other objects of the photo are postures too: several hands or persons."""
+    best = seen[0].candidate
+    others = {
+        s.candidate.number for s in seen if s.candidate.segmentation == best.segmentation and not s.decision.rejected
+    } - {best.number}
+    if not others:
+        return ()
+    return (f"{len(others) + 1} hands in view; the answer is for the clearest",)
+
+
+def recognize_photo(
+    image: Image | str | os.PathLike[str],
+    database: Database | PhotoRecognizer,
+    among: Iterable[str] | None = None,
+    source: str = "photo",
+) -> Recognition:
+    """Name the posture on one photo; for many photos make one `PhotoRecognizer`.
+
+    Args:
+        image: a path, or (h, w, 3) uint8 BGR (grey and BGRA are taken too).
+        database: of postures, or a recogniser made from it.
+        among: labels that the context allows; all when None.
+        source: name of a photo given as an array.
+    """
+    recognizer = database if isinstance(database, PhotoRecognizer) else PhotoRecognizer(database)
+    return recognizer.recognize(image, among, source)
