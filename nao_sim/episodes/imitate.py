@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 STANDING_S = 1.0
 """How long an episode shows the robot standing when it does not answer."""
 
+SETTLE_S = 0.5
+"""The robot stands this long before it moves, so that its weight is on its feet."""
+
 Progress = Callable[[str, int, int | None], None]
 
 
@@ -62,6 +65,7 @@ def answer_to(recognition: Recognition, mirror: bool = False) -> Answer:
 def move(nao: Nao, gesture: Gesture | None) -> MotionLog:
     """Perform a gesture from standing, or stand still for ``STANDING_S`` seconds."""
     nao.reset("StandInit")
+    nao.step(round(SETTLE_S / nao.control_period))
     if gesture is None:
         still = Trajectory(np.zeros(1), nao.setpoint[None])
         return perform(nao, still, settle_s=STANDING_S)

@@ -42,7 +42,8 @@ def recording(path: Path, name: str, recording_id: str, blueprint: rrb.Blueprint
     os.environ.setdefault("RUST_LOG", "off")
     import rerun as rr
 
-    stream = rr.RecordingStream(APPLICATION_ID, recording_id=recording_id, send_properties=True)
+    # Its own properties would hold the wall clock.
+    stream = rr.RecordingStream(APPLICATION_ID, recording_id=recording_id, send_properties=False)
     stream.set_log_time_enabled(False)
     stream.set_log_tick_enabled(False)
     done = False
