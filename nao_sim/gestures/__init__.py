@@ -5,7 +5,7 @@ from nao_sim.gestures.formats import load_gesture, save_trajectory
 from nao_sim.gestures.gesture import Cycle, Gesture, KeyFrame, Walk
 from nao_sim.gestures.library import find_gesture, library
 from nao_sim.gestures.mirror import mirrored, mirrored_trajectory
-from nao_sim.gestures.preparation import Prepared, prepare
+from nao_sim.gestures.preparation import Prepared, prepare, written
 from nao_sim.gestures.vocabulary import Entry, vocabulary
 
 __all__ = [
@@ -26,4 +26,5 @@ __all__ = [
     "prepare",
     "save_trajectory",
     "vocabulary",
+    "written",
 ]

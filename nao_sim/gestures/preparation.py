@@ -22,6 +22,7 @@ AMPLITUDES = (0.1, 2.0)
 REST = "StandInit"
 # Joints that the gesture does not name come home from wherever the last one left them, within this time.
 _HOMING_S = 1.0
+_SAME_RAD = 1e-3
 # How many joints lie between the shoulder and this one; each follows a little later than the one before.
 _DEPTH = {"ElbowYaw": 1, "ElbowRoll": 1, "WristYaw": 2, "Hand": 2}
 
@@ -42,19 +43,40 @@ def prepare(
     repetitions: int | None = None,
     limits: str = "thesis",
 ) -> Prepared:
-    """Turn a gesture into targets for the 25 joints, every 20 ms.
+    """Turn a gesture into targets that the motors can follow: as :func:`written`, clipped and slowed where needed.
+
+    Args:
+        gesture, start, speed, amplitude, repetitions: see :func:`written`.
+        limits: ``"thesis"``, ``"v5"`` or ``"envelope"``.
+
+    Raises:
+        GestureError: as :func:`written`.
+    """
+    inside, clips = clipped(written(gesture, start, speed, amplitude, repetitions), limits)
+    slower, stretches = stretched(inside, limits)
+    return Prepared(slower, clips + stretches)
+
+
+def written(
+    gesture: Gesture,
+    start: str | Mapping[str, float] = REST,
+    speed: float = 1.0,
+    amplitude: float = 1.0,
+    repetitions: int | None = None,
+) -> Trajectory:
+    """Turn a gesture into targets for the 25 joints, every 20 ms, whether the motors can follow or not.
 
     Args:
         gesture: what to do; must have key frames.
         start: where the robot is: a posture's name, or NAOqi joint → rad.
-        speed: 2 is twice as fast, where the motors allow it.
+        speed: 2 is twice as fast.
         amplitude: 1.2 is a fifth larger. A repeated part grows about its own middle, so that a wave gets wider and
-            not higher; anything else grows away from StandInit. What would leave a range stops at it.
+            not higher; anything else grows away from StandInit.
         repetitions: of the cycle; None for the gesture's own.
-        limits: ``"thesis"`` or ``"v5"``.
 
     Raises:
         GestureError: a walking gesture, or a speed, amplitude or number of repetitions out of bounds.
+        MotionError: no stance on both feet carries it.
     """
     if gesture.walk is not None:
         raise GestureError(f"'{gesture.name}' is a walk; it is played, not turned into a fixed trajectory")
@@ -63,20 +85,26 @@ def prepare(
     frames = _repeated(_scaled(_homed(gesture), gesture, amplitude), gesture, repetitions)
     frames = [replace(frame, time_s=frame.time_s / speed) for frame in frames]
     first = _start_angles(start)
+    frames = _led_in(frames, first)
     times, targets = _joint_curves(gesture, frames, first, gesture.follow_through_s / speed)
     if not set(gesture.joints) & set(LEG_JOINTS):
         targets = plant_feet(times, targets, _torso_path(gesture, frames, times))
     elif any(frame.torso for frame in frames):
         raise GestureError(f"'{gesture.name}' names both leg joints and the torso; keep one of them")
-    marks = {frame.mark: frame.time_s for frame in frames if frame.mark is not None}
-    inside, clips = clipped(Trajectory(times, targets, marks=marks), limits)
-    slower, stretches = stretched(inside, limits)
-    return Prepared(slower, clips + stretches)
+    return Trajectory(times, targets, marks={frame.mark: frame.time_s for frame in frames if frame.mark is not None})
 
 
 def _between(what: str, value: float, allowed: tuple[float, float]) -> None:
     if not allowed[0] <= value <= allowed[1]:
         raise GestureError(f"{what} is {value:g}; choose one from {allowed[0]:g} to {allowed[1]:g}")
+
+
+def _led_in(frames: list[KeyFrame], start: NDArray[np.float64]) -> list[KeyFrame]:
+    """Return the key frames later, if the first is at time 0 and elsewhere than the robot, so that it can get there."""
+    asked = frames[0].angles_rad if frames[0].time_s < CONTROL_PERIOD else {}
+    if all(abs(value - start[ACTUATED.index(name)]) < _SAME_RAD for name, value in asked.items()):
+        return frames
+    return [replace(frame, time_s=frame.time_s + _HOMING_S) for frame in frames]
 
 
 def _start_angles(start: str | Mapping[str, float]) -> NDArray[np.float64]:
@@ -170,12 +198,9 @@ def _joint_curves(
 
 
 def _put(keys: list[tuple[float, float]], time: float, value: float) -> None:
-    """Append a key; one at the very start replaces where the robot is only if it agrees with it."""
-    if time <= keys[-1][0]:
-        # A file that says where it starts is right about itself; getting there is the stretching's business.
-        keys[-1] = (keys[-1][0], value)
-        return
-    keys.append((time, value))
+    """Append a key, unless it repeats where the robot is at the very start."""
+    if time > keys[-1][0]:
+        keys.append((time, value))
 
 
 def _torso_path(gesture: Gesture, frames: list[KeyFrame], times: NDArray[np.float64]) -> TorsoPath:

@@ -35,16 +35,19 @@ _LEFT_LEG = (
 class Gains:
     """Feedback gains: joint offset in rad per rad of lean, per rad·s of it, and per rad/s of its rate.
 
+    They are low on purpose: set-points come late, gears have play, and stiff ankles hold most of it by themselves.
+    Larger ones lean less after a push but start to shake the robot with two periods of delay.
+
     Attributes:
         ankle_pitch, ankle_roll, hip_pitch, hip_roll: (proportional, integral, derivative).
         most_rad: no offset is larger.
         leak_s: the integral forgets with this time constant, seconds.
     """
 
-    ankle_pitch: tuple[float, float, float] = (0.35, 0.6, 0.06)
-    ankle_roll: tuple[float, float, float] = (0.25, 0.4, 0.04)
-    hip_pitch: tuple[float, float, float] = (0.15, 0.0, 0.02)
-    hip_roll: tuple[float, float, float] = (0.10, 0.0, 0.0)
+    ankle_pitch: tuple[float, float, float] = (0.25, 0.2, 0.02)
+    ankle_roll: tuple[float, float, float] = (0.20, 0.15, 0.012)
+    hip_pitch: tuple[float, float, float] = (0.12, 0.0, 0.005)
+    hip_roll: tuple[float, float, float] = (0.08, 0.0, 0.0)
     most_rad: float = 0.20
     leak_s: float = 8.0
 

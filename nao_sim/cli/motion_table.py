@@ -1,0 +1,66 @@
+"""Measures of a motion as numbers and as a table, for the commands that show them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from nao_sim.motion.measures import Measures
+
+_EXTREMES = (
+    "range_margin_deg",
+    "speed_share",
+    "torque_share",
+    "self_distance_mm",
+    "com_margin_mm",
+    "tracking_deg",
+)
+# Margin to the range, share of nominal speed, share of stall torque, distances, root mean square error.
+_HEADINGS = (
+    "s",
+    "range °",
+    "speed",
+    "torque",
+    "self mm",
+    "CoM mm",
+    "track °",
+    "stands",
+)
+
+
+def as_dict(measures: Measures) -> dict[str, Any]:
+    """Return the measures as JSON has them; each extreme with its joint or pair and its time."""
+    extremes = {name: getattr(measures, name) for name in _EXTREMES}
+    return {
+        "duration_s": round(measures.duration_s, 3),
+        **{
+            name: {"value": round(extreme.value, 4), "where": extreme.where, "time_s": round(extreme.time_s, 3)}
+            for name, extreme in extremes.items()
+        },
+        "tracking_all_deg": round(measures.tracking_all_deg, 4),
+        "fell_at_s": measures.fell_at,
+        "ends_standing": measures.ends_standing,
+    }
+
+
+def table_of(rows: list[dict[str, Any]]) -> Table:
+    """Return a table, a row a gesture; rows as :func:`as_dict` with ``gesture`` and ``faults``, or ``refused``."""
+    from rich.table import Table
+
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    table.add_column("gesture", no_wrap=True)
+    for heading in _HEADINGS:
+        table.add_column(heading, justify="right")
+    table.add_column("verdict")
+    for row in rows:
+        verdict = "[green]ok[/]" if not row["faults"] else "[red]" + "; ".join(row["faults"]) + "[/]"
+        cells = [""] * len(_HEADINGS)
+        if "duration_s" in row:
+            values = [row["duration_s"], *(row[name]["value"] for name in _EXTREMES)]
+            formats = ("{:.1f}", "{:.1f}", "{:.2f}", "{:.2f}", "{:.0f}", "{:.0f}", "{:.2f}")
+            stands = "yes" if row["ends_standing"] else "no"
+            cells = [*(form.format(value) for form, value in zip(formats, values, strict=True)), stands]
+        table.add_row(row["gesture"], *cells, verdict)
+    return table

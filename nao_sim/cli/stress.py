@@ -1,0 +1,99 @@
+"""``nao-sim stress``: one motion on many robots that are not quite as documented."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from nao_sim.gestures import Gesture
+    from nao_sim.motion import Trajectory
+    from nao_sim.motion.stress import StressReport
+
+
+def stress(
+    gesture: Annotated[str, typer.Argument(help="A gesture's name, or a .toml, .motion or .csv file.")],
+    trials: Annotated[int, typer.Option(min=1, max=100_000, help="How many robots.")] = 1000,
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same trials.")] = 0,
+    at_least: Annotated[float, typer.Option(help="Exit code 1 if a smaller share stays up.")] = 0.99,
+    sweep: Annotated[bool, typer.Option(help="Also look for the factor that breaks it first.")] = True,
+    threads: Annotated[int, typer.Option(min=0, help="0 for all cores.")] = 0,
+    replay: Annotated[
+        int | None, typer.Option(help="Play this trial alone and tell about it.", show_default=False)
+    ] = None,
+    video: Annotated[Path | None, typer.Option(help="Film the replayed trial: FILE.mp4.", show_default=False)] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+) -> None:
+    """Play GESTURE under random mass, centre of mass, friction, motor strength, play, delay, slope, tilt and push."""
+    from nao_sim.cli.progress import stages
+    from nao_sim.gestures import find_gesture
+    from nao_sim.motion.stress import stress as run
+
+    chosen = find_gesture(gesture)
+    trajectory = chosen.trajectory()
+    if replay is not None:
+        _replay(chosen, trajectory, seed, replay, video, as_json)
+        return
+    with stages(hidden=as_json) as progress:
+        report = run(trajectory, trials, seed, sweep=sweep, threads=threads, progress=progress)
+    if as_json:
+        typer.echo(json.dumps({"gesture": chosen.name, **asdict(report), "weakest": report.weakest}, indent=2))
+    else:
+        _print(gesture, chosen, report)
+    if report.upright_share < at_least:
+        raise typer.Exit(1)
+
+
+def _replay(gesture: Gesture, trajectory: Trajectory, seed: int, index: int, video: Path | None, as_json: bool) -> None:
+    from nao_sim.motion.stress import describe_trial, replay_trial
+    from nao_sim.robot import Nao
+
+    log = replay_trial(trajectory, seed, index)
+    if video is not None:
+        from nao_sim.episodes.film_robot import film_robot
+
+        with Nao(fingers=False) as nao:
+            film_robot(nao.model, log, video)
+    told: dict[str, Any] = {"gesture": gesture.name, "seed": seed, "trial": index, "fell_at_s": log.fell_at}
+    told |= describe_trial(seed, index)
+    if as_json:
+        typer.echo(json.dumps(told, indent=2))
+        return
+    for name, value in told.items():
+        typer.echo(f"{name:20s} {value}")
+
+
+def _print(asked: str, gesture: Gesture, report: StressReport) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_row("gesture", f"[bold]{gesture.name}[/], {report.trials} trials of seed {report.seed}")
+    table.add_row("stay up", f"[bold]{100 * report.upright_share:.1f} %[/]")
+    table.add_row(
+        "lean", f"{report.lean_deg[0]:.1f}° beyond the plan in the median trial, 95 % below {report.lean_deg[1]:.1f}°"
+    )
+    if report.breaking_size:
+        table.add_row("breaks first", _weakest(report))
+    if report.fell:
+        shown = ", ".join(str(index) for index in report.fell[:8]) + (", …" if len(report.fell) > 8 else "")
+        table.add_row("fell", f"trials {shown}")
+        table.add_row(
+            "look", f"nao-sim stress {asked} --seed {report.seed} --replay {report.fell[0]} --video trial.mp4"
+        )
+    Console(soft_wrap=True).print(table)
+
+
+def _weakest(report: StressReport) -> str:
+    from nao_sim.motion.stress import SWEEP_SIZES
+
+    if report.weakest is None:
+        return f"nothing alone, up to {SWEEP_SIZES[-1]:g} times its size"
+    size = report.breaking_size[report.weakest]
+    others = [name for name, other in report.breaking_size.items() if other == size and name != report.weakest]
+    also = f" (as do {', '.join(others)})" if others else ""
+    return f"{report.weakest}, alone at {size:g} times its size{also}"
