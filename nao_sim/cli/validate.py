@@ -49,7 +49,6 @@ def _print(reports: Sequence[JointReport]) -> None:
     table.add_column("joint", no_wrap=True)
     for heading in ("documented", "reached", "past mrad", "speed", "torque Nm"):
         table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("problems")
     for r in reports:
         table.add_row(
             r.joint,
@@ -58,12 +57,13 @@ def _print(reports: Sequence[JointReport]) -> None:
             "-" if r.peak_mrad is None else f"{r.peak_mrad:.2f}",
             "-" if r.speed is None else f"{r.speed:.0f}/{r.nominal_speed:.0f}",
             "-" if r.torque is None else f"{r.torque:.2f}/{r.torque_limit:.2f}",
-            "; ".join(r.problems) or "none",
         )
     console = Console()
     console.print(table)
-    bad = sum(bool(r.problems) for r in reports)
-    console.print(f"{len(reports)} joints, {bad} with problems")
+    bad = [r for r in reports if r.problems]
+    for r in bad:
+        console.print(f"{r.joint}: {'; '.join(r.problems)}", soft_wrap=True)
+    console.print(f"{len(reports)} joints, {len(bad)} with problems")
 
 
 def _range(pair: tuple[float, float] | None) -> str:
