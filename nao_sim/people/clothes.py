@@ -20,7 +20,7 @@ SLEEVES = {
     "long": ("upper_sleeve", "lower_sleeve", "cuff"),
 }
 LEGS = {"trousers": ("hips", "thigh", "shin"), "shorts": ("hips", "thigh"), "skirt": ("hips",)}
-OPTIONAL = ("hair_short", "hair_long", "hair_bun", "skirt", "print", "watch")
+OPTIONAL = ("hair_short", "hair_long", "hair_bun", "skirt", "watch")
 
 
 @dataclass(frozen=True)
@@ -81,10 +81,10 @@ def dress(model: mujoco.MjModel, person: Person, outfit: Outfit) -> None:
     shown = {person.hair_style}
     if outfit.legs == "skirt":
         shown.add("skirt")
-    for name, colour in (("print", outfit.print), ("watch", outfit.watch)):
-        if colour is not None:
-            shown.add(name)
-            colours[name] = colour
+    if outfit.watch is not None:
+        shown.add("watch")
+        colours["watch"] = outfit.watch
+    colours["print"] = outfit.print or outfit.top
     for skin in range(model.nskin):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_SKIN, skin)
         model.skin_rgba[skin, :3] = colours.get(name, person.skin)

@@ -17,6 +17,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from nao_sim.people.parting import Mesh, outward_normals, split
 from nao_sim.people.surface import Array, RoundCone, melt_cones
 from nao_sim.resources import resource
 
@@ -33,8 +34,8 @@ class Part:
 
     name: str
     vertices: Array
-    normals: Array
     faces: NDArray[np.int32]
+    normals: Array
     weights: Array
 
 
@@ -68,12 +69,22 @@ def _piece(model: mujoco.MjModel, frames: Array, name: str, piece: dict[str, Any
     spacing = piece["spacing"] / (detail if name == "hand" else 1.0)
     alone = name == "hand"
     cones = [cone for row in piece["cones"] for cone in _cones(model, frames, row, right_only=alone)]
-    vertices, faces = melt_cones(cones, spacing, piece["melt"])
-    weights = _weights(model, cones, vertices)
-    owner = np.argmin([c.distance(vertices[faces].mean(axis=1)) for c in cones], axis=0)
-    labels = np.array([cones[k].part for k in owner])
-    cut = [_cut(label, vertices, faces, weights, labels == label) for label in dict.fromkeys(c.part for c in cones)]
+    paint = [cone for row in piece.get("paint", []) for cone in _cones(model, frames, row, right_only=alone)]
+    mesh = Mesh(*melt_cones(cones, spacing, piece["melt"]))
+    mesh = Mesh(mesh.vertices, mesh.faces, outward_normals(mesh), _weights(model, cones, mesh.vertices))
+    labels = list(dict.fromkeys(cone.part for cone in [*cones, *paint]))
+    distance = np.stack([_part_distance(cones, paint, label, mesh.vertices) for label in labels])
+    cut = [Part(labels[k], *piece_mesh) for k, piece_mesh in split(mesh, distance)]
     return [_with_mirror(model, part) for part in cut] if alone else cut
+
+
+def _part_distance(cones: list[RoundCone], paint: list[RoundCone], label: str, points: Array) -> Array:
+    """How far ``points`` are from a part (n,); a painted part wins wherever the points lie inside it."""
+    painted = [cone for cone in paint if cone.part == label]
+    if painted:
+        inside = np.min([cone.distance(points) for cone in painted], axis=0)
+        return inside + np.min([cone.distance(points) for cone in cones], axis=0)
+    return np.asarray(np.min([cone.distance(points) for cone in cones if cone.part == label], axis=0))
 
 
 def _cones(model: mujoco.MjModel, frames: Array, row: dict[str, Any], right_only: bool) -> list[RoundCone]:
@@ -114,18 +125,6 @@ def _weights(model: mujoco.MjModel, cones: list[RoundCone], vertices: Array) -> 
     return raw / raw.sum(axis=1, keepdims=True)
 
 
-def _cut(name: str, vertices: Array, faces: NDArray[np.int32], weights: Array, mine: NDArray[np.bool_]) -> Part:
-    """The faces ``mine`` as a part of their own; normals come from the whole surface, so that seams do not show."""
-    corner = vertices[faces]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    total = np.zeros_like(vertices)
-    for k in range(3):
-        np.add.at(total, faces[:, k], normal)
-    total /= np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-12)
-    used, local = np.unique(faces[mine], return_inverse=True)
-    return Part(name, vertices[used], total[used], local.reshape(-1, 3).astype(np.int32), weights[used])
-
-
 def _with_mirror(model: mujoco.MjModel, part: Part) -> Part:
     """Add the left twin of a right part."""
     twin = np.arange(model.nbody)
@@ -138,8 +137,8 @@ def _with_mirror(model: mujoco.MjModel, part: Part) -> Part:
     return Part(
         part.name,
         np.concatenate([part.vertices, part.vertices * _MIRROR]),
-        np.concatenate([part.normals, part.normals * _MIRROR]),
         faces,
+        np.concatenate([part.normals, part.normals * _MIRROR]),
         np.concatenate([part.weights, part.weights[:, twin]]),
     )
 

@@ -17,7 +17,7 @@ from nao_sim.people.stage import Stage
 from nao_sim.people.surface import Array
 
 # Joints turning faster than this while the shutter is open leave a blur worth rendering.
-_BLUR_RAD = np.radians(3.0)
+_BLUR_RAD = np.radians(5.0)
 _BLUR_STEPS = 3
 
 
@@ -28,20 +28,18 @@ def roll(stage: Stage, shot: Shot) -> Iterator[Image]:
     stage.furnish(shot.room)
     stage.light(shot.light)
     stage.aim(shot.camera)
-    room, room_depth = stage.room_image()
+    stage.room_image()
     times = np.arange(shot.frames) / shot.fps
     angles, steps = _exposed_angles(shot, times)
     exposure = Exposure(shot.sensor, shot.width, shot.height)
     for k, time in enumerate(times):
-        picture = None
-        for step in range(steps[k]):
-            person, depth = stage.person_image(angles[k, step])
-            layer = np.where((depth < room_depth)[:, :, None], person, room)
-            picture = (
-                layer if picture is None else cv2.addWeighted(picture, step / (step + 1), layer, 1 / (step + 1), 0)
+        picture = stage.image(angles[k, 0])
+        for step in range(1, steps[k]):
+            share = 1 / (step + 1)
+            picture = np.asarray(
+                cv2.addWeighted(picture, 1 - share, stage.image(angles[k, step]), share, 0), dtype=np.uint8
             )
-        assert picture is not None
-        yield exposure.develop(np.asarray(picture, dtype=np.uint8), float(time))
+        yield exposure.develop(picture, float(time))
 
 
 def _exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:

@@ -145,7 +145,7 @@ def perform(label: str, person: Person, rng: Generator, half_width: float, actio
     ways = [m for m in motions()[label] if action in (None, m.action)]
     weight = np.array([m.weight for m in ways])
     motion = ways[int(rng.choice(len(ways), p=weight / weight.sum()))]
-    wanted = float(np.clip(rng.lognormal(np.log(3.3), 0.3), *CLIP_SECONDS))
+    wanted = float(np.clip(rng.lognormal(np.log(3.1), 0.3), *CLIP_SECONDS))
     for _ in range(16):
         plan = _Plan(motion, person, rng, half_width)
         if plan.now <= wanted - 0.2:

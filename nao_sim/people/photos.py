@@ -152,9 +152,8 @@ def take_photo(stage: Stage, photo: Photo) -> Image:
     stage.furnish(photo.room)
     stage.light(photo.light)
     stage.aim(_close_camera(stage, photo, rng) if photo.close else _person_camera(photo, rng))
-    room, room_depth = stage.room_image()
-    person, depth = stage.person_image(photo.angles)
-    picture = np.where((depth < room_depth)[:, :, None], person, room)
+    stage.room_image()
+    picture = stage.image(photo.angles)
     small = cv2.resize(picture, (photo.width, photo.height), interpolation=cv2.INTER_AREA)
     y, x = np.mgrid[-1 : 1 : photo.height * 1j, -1 : 1 : photo.width * 1j]
     shaded = small * (1 - photo.vignette * (x**2 + y**2) / 2)[:, :, None]

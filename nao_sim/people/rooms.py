@@ -46,7 +46,9 @@ def texture_images(size: int = 128) -> dict[str, NDArray[np.uint8]]:
     grain = rng.normal(0, 0.03, (size, size))
     shelf = 1 - 0.75 * (np.abs((y * 4) % 1 - 0.5) > 0.46)
     width = rng.integers(2, 6, 200)
-    book = np.repeat(rng.uniform(0.15, 1, (200, 3)), width, axis=0)[: size * 4].reshape(4, size, 3)
+    book = np.repeat(rng.uniform(0.15, 0.9, (200, 1)) * rng.uniform(0.6, 1.1, (200, 3)), width, axis=0)[
+        : size * 4
+    ].reshape(4, size, 3)
     books = np.repeat(book, size // 4, axis=0) * shelf[:, :, None]
     bricks = 1 - 0.45 * ((((y * 8) % 1) < 0.1) | (((x * 4 + 0.5 * (np.floor(y * 8) % 2)) % 1) < 0.05))
     bars = ((np.abs(x - 0.5) < 0.02) | (np.abs(y - 0.5) < 0.02)) | (np.maximum(np.abs(x - 0.5), np.abs(y - 0.5)) > 0.46)
@@ -83,11 +85,13 @@ def draw_room(rng: Generator, clutter: float) -> list[Item]:
     texture = str(rng.choice(["plain", "plain", "noise", "bricks", "stripes", "planks", "tiles"]))
     floor = str(rng.choice(["planks", "noise", "tiles", "plain"]))
     room = [
-        Item(BOX, (0, 0, -0.1), (9, 9, 0.1), _colour(rng, 0.25, 0.75, 0.25), floor),
+        Item(BOX, (0, 0, -0.1), (9, 9, 0.1), _colour(rng, 0.25, 0.75, 0.12), floor),
         Item(BOX, (-depth - 0.1, 0, 1.6), (9, 3.0, 0.1), wall, texture, FACING),
     ]
     if rng.random() < 0.3:  # a lower half of another colour, as on panelled or partitioned walls
-        room.append(Item(BOX, (-depth, 0, 0.5), (0.02, 9, rng.uniform(0.3, 0.7)), _colour(rng, 0.2, 0.8, 0.3), "plain"))
+        room.append(
+            Item(BOX, (-depth, 0, 0.5), (0.02, 9, rng.uniform(0.3, 0.7)), _colour(rng, 0.2, 0.8, 0.18), "plain")
+        )
     pieces = round(clutter * int(rng.integers(3, 12)))
     for _ in range(pieces):
         room += _PIECES[int(rng.integers(len(_PIECES)))](rng, depth)
@@ -98,9 +102,9 @@ def _wall_colour(rng: Generator) -> tuple[float, float, float]:
     kind = rng.random()
     if kind < 0.5:
         return _colour(rng, 0.6, 0.97, 0.08)
-    if kind < 0.65:  # skin-coloured plaster
+    if kind < 0.6:  # skin-coloured plaster
         return 0.85 * rng.uniform(0.9, 1.1), 0.68 * rng.uniform(0.95, 1.05), 0.55 * rng.uniform(0.95, 1.05)
-    return _colour(rng, 0.15, 0.9, 0.35)
+    return _colour(rng, 0.25, 0.9, 0.2)
 
 
 def _colour(rng: Generator, low: float, high: float, chroma: float) -> tuple[float, float, float]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -151,16 +152,20 @@ class Stage:
         model.cam_pos[k], model.cam_fovy[k] = camera.pos, camera.fovy_deg
         mujoco.mju_mat2Quat(model.cam_quat[k], frame.ravel())
 
-    def room_image(self) -> tuple[Image, NDArray[np.float32]]:
-        """Render the empty room with shadows: RGB (h, w, 3) and its depth (h, w)."""
+    def room_image(self) -> Image:
+        """Render the empty room with shadows and keep it as the background; RGB (h, w, 3), the first row at the top."""
         self._render(groups=(1,), person=False, shadows=True)
-        return self._rgb[::-1].copy(), self._depth[::-1].copy()
+        self._room, self._room_depth = self._rgb.copy(), self._depth.copy()
+        return np.asarray(cv2.flip(self._room, 0), dtype=np.uint8)
 
-    def person_image(self, angles: Array) -> tuple[Image, NDArray[np.float32]]:
-        """Render the person alone at ``angles`` (nq,): RGB and depth, both views into buffers that are overwritten."""
+    def image(self, angles: Array) -> Image:
+        """Render the person at ``angles`` (nq,) before the room of :meth:`room_image`; RGB (h, w, 3)."""
         self.data.qpos[:] = angles
         self._render(groups=(), person=True, shadows=False)
-        return self._rgb[::-1], self._depth[::-1]
+        picture = self._room.copy()
+        cv2.copyTo(self._rgb, (self._depth < self._room_depth).view(np.uint8), picture)
+        # OpenGL's rows start at the bottom.
+        return np.asarray(cv2.flip(picture, 0), dtype=np.uint8)
 
     def _render(self, groups: tuple[int, ...], person: bool, shadows: bool) -> None:
         mujoco.mj_kinematics(self.model, self.data)
