@@ -42,6 +42,8 @@ def draw_ranges(reports: Sequence[JointReport], path: Path, title: str) -> None:
             axes.plot(report.compiled, [row, row], "|", color=_INK, markersize=11, label=label)
     axes.set_yticks(range(len(reports)), [report.joint for report in reports])
     axes.invert_yaxis()
+    low, high = axes.get_xlim()
+    axes.set_xlim(low - 5, high + 5)
     axes.axvline(0, color=_INK, linewidth=0.5)
     axes.set_xlabel("degrees (hands: per cent open)")
     axes.set_title(title, loc="left")
