@@ -26,7 +26,9 @@ def validate(
     mjcf: Annotated[
         Path | None, typer.Option(help="With --model: somebody else's NAO (an MJCF file).", show_default=False)
     ] = None,
-    figure: Annotated[Path | None, typer.Option(help="Draw the use of the ranges: FILE.png.", show_default=False)] = None,
+    figure: Annotated[
+        Path | None, typer.Option(help="Draw the use of the ranges: FILE.png.", show_default=False)
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the measurements as JSON.")] = False,
 ) -> None:
     """Play each gesture free-standing and measure it against ranges, motors, its own body and the ground.
