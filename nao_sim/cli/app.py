@@ -29,7 +29,7 @@ EXIT_ERROR = 2
 
 def _app(names: list[str]) -> typer.Typer:
     """Build the command line; only the modules of ``names`` are imported."""
-    app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
+    app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 
     @app.callback()
     def _root() -> None:
