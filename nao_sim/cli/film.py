@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn, track
 
 from nao_sim.people import dataset
+from nao_sim.people.samples import film_samples, sample_labels
 
 
 def film(
@@ -20,8 +21,13 @@ def film(
     classes: Annotated[list[str] | None, typer.Option(help="Only these classes; all dynamic ones without it.")] = None,
     irrelevant: Annotated[int, typer.Option(help="Clips of motions that are no gesture.")] = 0,
     processes: Annotated[int, typer.Option(help="How many render at once; 0 for one a core.")] = 0,
+    samples: Annotated[bool, typer.Option("--samples", help="Film the sample clips of assets/clips instead.")] = False,
 ) -> None:
     """Film simulated persons performing the gestures: a data set with manifest and card."""
+    if samples:
+        names = list(track(film_samples(out), "filming", total=len(sample_labels())))
+        typer.echo(f"{len(names)} samples in {out}")
+        return
     jobs = dataset.plan(persons, takes, seed, classes or None, irrelevant)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     frames = 0

@@ -72,7 +72,12 @@ def dress(model: mujoco.MjModel, person: Person, outfit: Outfit) -> None:
     colours |= dict.fromkeys(SLEEVES[outfit.sleeves], outfit.top)
     colours |= dict.fromkeys((*LEGS[outfit.legs], "skirt"), outfit.bottom)
     dark = (0.07, 0.05, 0.045)
-    colours |= {"eyes": dark, "brows": _shade(person.hair, 0.6), person.hair_style: person.hair}
+    colours |= {
+        "eyes": dark,
+        "whites": (0.86, 0.84, 0.82),
+        "brows": _shade(person.hair, 0.6),
+        person.hair_style: person.hair,
+    }
     r, g, b = person.skin
     # Palms are paler than the rest of dark skin.
     pale = 0.4 * (1 - (r + g + b) / 3)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import multiprocessing
 import os
@@ -14,11 +13,9 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import pyarrow as pa
-import pyarrow.parquet as pq
-
 from nao_sim.people.errors import FilmError
 from nao_sim.people.film import write_clip
+from nao_sim.people.manifest import replace_file, write_manifest
 from nao_sim.people.motions import IRRELEVANT, motions
 from nao_sim.people.persons import Person
 from nao_sim.people.photos import DETAIL as PHOTO_DETAIL
@@ -209,20 +206,6 @@ def shot_row(file: str, shot: Shot) -> dict[str, Any]:
     }
 
 
-def write_manifest(out: Path, rows: Sequence[dict[str, Any]]) -> None:
-    """Write ``manifest.parquet`` and ``manifest.csv`` of ``rows`` into ``out``, atomically."""
-    table = pa.Table.from_pylist(list(rows))
-    _replace(out / "manifest.parquet", lambda part: pq.write_table(table, part))
-
-    def as_csv(part: Path) -> None:
-        with part.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, fieldnames=table.column_names)
-            writer.writeheader()
-            writer.writerows(rows)
-
-    _replace(out / "manifest.csv", as_csv)
-
-
 def write_card(out: Path, command: dict[str, Any], jobs: Sequence[Job]) -> None:
     """Write ``card.json``: what is in the data set and how it was made."""
     labels = [job.label for job in jobs]
@@ -236,14 +219,4 @@ def write_card(out: Path, command: dict[str, Any], jobs: Sequence[Job]) -> None:
         "renderer": os.environ.get("MUJOCO_GL", "default"),
         "left_right": "the performer's own; the camera faces the performer and is not mirrored",
     }
-    _replace(out / "card.json", lambda part: part.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8"))
-
-
-def _replace(path: Path, write: Callable[[Path], Any]) -> None:
-    """Let ``write`` fill a file beside ``path`` and put it in place."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        write(part)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    replace_file(out / "card.json", lambda part: part.write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8"))

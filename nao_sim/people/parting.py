@@ -46,8 +46,8 @@ def split(mesh: Mesh, distance: Array) -> Iterator[tuple[int, Mesh]]:
     labels = np.concatenate([corners[kept, 0], parts])
     for part in np.unique(labels):
         used, local = np.unique(faces[labels == part], return_inverse=True)
-        local = local.reshape(-1, 3).astype(np.int32)
-        yield int(part), Mesh(mesh.vertices[used], local, mesh.normals[used], mesh.weights[used])
+        triangles: NDArray[np.int32] = local.reshape(-1, 3).astype(np.int32)
+        yield int(part), Mesh(mesh.vertices[used], triangles, mesh.normals[used], mesh.weights[used])
 
 
 def _cut(

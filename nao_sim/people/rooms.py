@@ -94,7 +94,9 @@ def draw_room(rng: Generator, clutter: float) -> list[Item]:
         )
     pieces = round(clutter * int(rng.integers(3, 12)))
     for _ in range(pieces):
-        room += _PIECES[int(rng.integers(len(_PIECES)))](rng, depth)
+        # Furniture that stands before a near wall would stand before the person.
+        choice = _PIECES if depth > 1.3 else _FLAT
+        room += choice[int(rng.integers(len(choice)))](rng, depth)
     return room[:MAX_ITEMS]
 
 
@@ -186,4 +188,5 @@ def _lamp(rng: Generator, depth: float) -> list[Item]:
     return [pole, Item(BALL, (-depth + 0.25, y, height), (0.15, 0.15, 0.17), (1.0, 0.95, 0.8))]
 
 
-_PIECES = (_picture, _picture, _window, _door, _shelf, _table, _sofa, _plant, _curtain, _lamp)
+_FLAT = (_picture, _picture, _window, _door, _curtain)
+_PIECES = (*_FLAT, _shelf, _shelf, _table, _table, _sofa, _plant, _lamp)
