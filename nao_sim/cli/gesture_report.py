@@ -69,5 +69,7 @@ def _print(rows: list[dict[str, Any]]) -> None:
     console = Console(soft_wrap=True)
     console.print(table_of(rows))
     for row in rows:
+        for fault in row["faults"]:
+            console.print(f"[red]{row['gesture']}[/]: {fault}")
         for change in row["changes"]:
             console.print(f"{row['gesture']}: changed {change}")

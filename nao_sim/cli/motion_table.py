@@ -53,9 +53,9 @@ def table_of(rows: list[dict[str, Any]]) -> Table:
     table.add_column("gesture", no_wrap=True)
     for heading in _HEADINGS:
         table.add_column(heading, justify="right")
-    table.add_column("verdict")
+    table.add_column("passes")
     for row in rows:
-        verdict = "[green]ok[/]" if not row["faults"] else "[red]" + "; ".join(row["faults"]) + "[/]"
+        verdict = "[red]no[/]" if row["faults"] else "[green]ok[/]"
         cells = [""] * len(_HEADINGS)
         if "duration_s" in row:
             values = [row["duration_s"], *(row[name]["value"] for name in _EXTREMES)]

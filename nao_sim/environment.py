@@ -1,0 +1,201 @@
+"""For learners: the robot as a ``dm_env`` environment whose task is to perform a gesture without falling.
+
+A step is one control period of 20 ms, as on the robot: the action is a set-point for each of the 25 motors, held inside
+ranges and nominal speed by the same command layer that :class:`nao_sim.robot.Nao` has.
+
+Action, shape (25,): targets in rad (hands: fraction open), columns as :data:`nao_sim.robot.ACTUATED`.
+
+Observation, all float64:
+
+================  =====  =====================================================================================
+``angles``        (25,)  measured, rad
+``velocities``    (25,)  measured, rad/s
+``reference``     (25,)  where the gesture wants the joints at the end of the step to come, rad
+``lean``          (2,)   roll and pitch of the torso, rad
+``planned_lean``  (2,)   the same, as the gesture means it at the end of the step
+``gyro``          (3,)   angular velocity in the torso's frame, rad/s
+``feet``          (8,)   foot force sensors, N
+``left``          (1,)   share of the gesture still to come, 1 … 0
+================  =====  =====================================================================================
+
+Reward, 0 … 1: ``exp(-e² / 2s²)`` with e the root mean square distance of the joints from the gesture and s = 0.1 rad;
+0 once the robot is down. An episode ends with the gesture (discount 1) or with a fall (discount 0). An agent that
+answers with ``reference`` plays the gesture without balance feedback.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from collections.abc import Sequence
+from typing import Any
+
+import dm_env
+import mujoco
+import numpy as np
+from dm_control import mujoco as dm_mujoco
+from dm_control.mujoco import wrapper
+from dm_control.rl import control
+from dm_env import specs
+from numpy.typing import NDArray
+
+from nao_sim.gestures import find_gesture
+from nao_sim.motion.balance import planned_lean
+from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
+from nao_sim.robot import ACTUATED, Nao, joint_table
+from nao_sim.robot.command import CommandLayer
+from nao_sim.robot.sensors import FSR
+
+Array = NDArray[np.float64]
+
+REWARD_WIDTH_RAD = 0.1
+_DOWN_COS, _DOWN_HEIGHT_M = float(np.cos(np.deg2rad(85.0))), 0.17
+
+
+class NaoPhysics(dm_mujoco.Physics):
+    """The robot's model in dm_control; a step of the environment sends one set-point."""
+
+    def prepare(self) -> None:
+        """Look up addresses once, and remember the standing state that episodes start from."""
+        model = self._raw_model = self.model.ptr
+        raw = self.raw = self.data.ptr
+        self.command = CommandLayer("thesis", CONTROL_PERIOD)
+        joints = [model.joint(name) for name in ACTUATED]
+        self.qpos_rows = np.array([joint.qposadr[0] for joint in joints])
+        self.dof_rows = np.array([joint.dofadr[0] for joint in joints])
+        self.fsr_rows = np.array([model.sensor(name).adr[0] for name in FSR])
+        self.gyro_row = int(model.sensor("Gyrometer").adr[0])
+        torso = model.body("torso").id
+        # Views into the simulation's own memory, kept because making them anew each step costs more than the rest.
+        self.qpos, self.qvel, self.sensed, self.ctrl = raw.qpos, raw.qvel, raw.sensordata, raw.ctrl
+        self.torso_up, self.torso_place = raw.xmat[torso, 6:], raw.xpos[torso]
+        with Nao(model=model) as nao:
+            self.standing = nao.data.qpos.copy()
+
+    def stand(self) -> None:
+        """Put the robot into StandInit, at rest."""
+        self.qpos[:] = self.standing
+        self.command.reset(self.standing[self.qpos_rows])
+        self.ctrl[:] = self.command.setpoint
+
+    def step(self, nstep: int = 1) -> None:
+        """Advance one control period: the set-point moves towards the targets, the motor boards interpolate.
+
+        Args:
+            nstep: physics steps in a control period.
+        """
+        raw, model, ctrl = self.raw, self._raw_model, self.ctrl
+        change = (self.command.advance() - ctrl) / nstep
+        for _ in range(nstep):
+            ctrl += change
+            mujoco.mj_step(model, raw)
+        if raw.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
+            raise control.PhysicsError("the simulation became unstable; look at what was commanded")
+
+    def lean(self) -> Array:
+        """Return roll and pitch of the torso, rad, shape (2,); one robot's :func:`nao_sim.motion.balance.lean_of`."""
+        x, y, z = self.torso_up.tolist()
+        return np.array([math.atan2(y, z), math.atan2(-x, math.hypot(y, z))])
+
+    @property
+    def down(self) -> bool:
+        """Whether the torso lies or is about to."""
+        return bool(self.torso_up[2] < _DOWN_COS or self.torso_place[2] < _DOWN_HEIGHT_M)
+
+
+class TrackGesture(control.Task):
+    """Follow a gesture.
+
+    Args:
+        trajectories: the gestures; each episode draws one.
+        seed: of the draw.
+    """
+
+    def __init__(self, trajectories: Sequence[Trajectory], seed: int | None = None) -> None:
+        self._plans = []
+        for trajectory in trajectories:
+            steps = int(np.ceil(trajectory.duration / CONTROL_PERIOD - 1e-9))
+            targets = trajectory.sample(np.asarray(np.arange(1, steps + 1) * CONTROL_PERIOD, dtype=np.float64))
+            self._plans.append((targets, planned_lean(targets)))
+        self._random = np.random.default_rng(seed)
+        self._low, self._high = joint_table().select(ACTUATED).range_rad().T
+        self._targets, self._leans = self._plans[0]
+        self._tick = 0
+
+    def seed(self, seed: int) -> None:
+        """Start the draw of gestures anew."""
+        self._random = np.random.default_rng(seed)
+
+    def initialize_episode(self, physics: NaoPhysics) -> None:
+        """Stand, and draw the gesture of the episode."""
+        self._targets, self._leans = self._plans[self._random.integers(len(self._plans))]
+        self._tick = 0
+        physics.stand()
+
+    def action_spec(self, physics: NaoPhysics) -> specs.BoundedArray:
+        """Return the spec of the targets; the bounds are the joint ranges of table A1-1."""
+        return specs.BoundedArray((len(ACTUATED),), np.float64, self._low, self._high, name="targets")
+
+    def before_step(self, action: Array, physics: NaoPhysics) -> None:
+        """Send the targets; what is out of range is clipped."""
+        physics.command.set_all(np.minimum(np.maximum(action, self._low), self._high))
+
+    def after_step(self, physics: NaoPhysics) -> None:
+        """Count the control periods."""
+        self._tick += 1
+
+    def get_observation(self, physics: NaoPhysics) -> OrderedDict[str, Array]:
+        """Return the observation; see the module."""
+        now = min(self._tick, len(self._targets) - 1)
+        return OrderedDict(
+            angles=physics.qpos[physics.qpos_rows],
+            velocities=physics.qvel[physics.dof_rows],
+            reference=self._targets[now].copy(),
+            lean=physics.lean(),
+            planned_lean=self._leans[now].copy(),
+            gyro=physics.sensed[physics.gyro_row : physics.gyro_row + 3].copy(),
+            feet=physics.sensed[physics.fsr_rows],
+            left=np.array([1.0 - self._tick / len(self._targets)]),
+        )
+
+    def get_reward(self, physics: NaoPhysics) -> float:
+        """Return how near the joints are to the gesture, 0 … 1."""
+        if physics.down:
+            return 0.0
+        error = physics.qpos[physics.qpos_rows] - self._targets[min(self._tick, len(self._targets)) - 1]
+        return math.exp(-float(error @ error) / len(error) / (2 * REWARD_WIDTH_RAD**2))
+
+    def get_termination(self, physics: NaoPhysics) -> float | None:
+        """Return the discount of the last step, or None while the episode goes on."""
+        if physics.down:
+            return 0.0
+        return 1.0 if self._tick >= len(self._targets) else None
+
+
+def track(gestures: str | Sequence[str] = "bye_right", seed: int | None = None, **options: Any) -> dm_env.Environment:
+    """Return an environment whose task is to perform gestures.
+
+    Args:
+        gestures: a library name or a gesture file, or several; each episode draws one.
+        seed: of the draw; the same seed and actions give the same observations.
+        **options: how to prepare the gestures, as for :meth:`nao_sim.gestures.Gesture.trajectory`.
+
+    Raises:
+        GestureError: an unknown gesture, or one that has no fixed trajectory.
+
+    Example:
+        >>> environment = track("yes", seed=1)
+        >>> step = environment.reset()
+        >>> while not step.last():
+        ...     step = environment.step(step.observation["reference"])
+        >>> bool(step.reward > 0.9)
+        True
+    """
+    names = [gestures] if isinstance(gestures, str) else list(gestures)
+    trajectories = [find_gesture(name).trajectory(**options) for name in names]
+    with Nao() as nao:
+        model = nao.model
+    physics = NaoPhysics.from_model(wrapper.MjModel(model))
+    physics.prepare()
+    task = TrackGesture(trajectories, seed)
+    return control.Environment(physics, task, control_timestep=CONTROL_PERIOD, legacy_step=False)
