@@ -18,6 +18,7 @@ from nao_sim.motion.trials import Trials
 from nao_sim.motion.whole_body import LEG_JOINTS
 from nao_sim.robot import ACTUATED, Nao, joint_table
 from nao_sim.robot.anti_collision import pair_tables
+from nao_sim.robot.command import CommandLayer
 from nao_sim.robot.sensors import FSR
 
 Array = NDArray[np.float64]
@@ -62,8 +63,9 @@ class Crowd:
         self._place(start)
         table = joint_table().select(ACTUATED)
         self._low, self._high = table.range_rad().T
-        self._step = table.max_speed_rad() * CONTROL_PERIOD
+        self._layer = CommandLayer("thesis", CONTROL_PERIOD)
         self._setpoint = np.tile(start[self._qpos], (len(trials), 1))
+        self._speed = np.zeros_like(self._setpoint)
         self._felt = self._setpoint.copy()
         self._queue = np.repeat(self._setpoint[:, None], int(trials.delay.max(initial=0)) + 1, axis=1)
         self.batch.ctrl = self._setpoint
@@ -117,7 +119,9 @@ class Crowd:
     def step(self, commands: Array) -> None:
         """Send a set-point to each robot, shape (n, 25), and advance one control period."""
         wanted = _clamp_pairs(np.clip(commands, self._low, self._high))
-        self._setpoint = self._setpoint + np.clip(wanted - self._setpoint, -self._step, self._step)
+        before, (glided, _) = self._setpoint, self._layer.glide(self._setpoint, wanted, self._speed)
+        self._setpoint = _clamp_pairs(glided)
+        self._speed = np.abs(self._setpoint - before) / CONTROL_PERIOD
         self._queue = np.roll(self._queue, 1, axis=1)
         self._queue[:, 0] = self._setpoint
         late = self._queue[np.arange(len(self.trials)), self.trials.delay].copy()
@@ -126,10 +130,10 @@ class Crowd:
         legs = late[:, _LEG_COLUMNS]
         late[:, _LEG_COLUMNS] = np.clip(self._felt[:, _LEG_COLUMNS], legs - half, legs + half)
         substeps = round(CONTROL_PERIOD / self.model.opt.timestep)
-        ctrl, change, before = self.batch.bind("ctrl"), late - self._felt, self._felt
+        ctrl, change, last = self.batch.bind("ctrl"), late - self._felt, self._felt
         self._felt = late
         for substep in range(1, substeps + 1):
-            ctrl[:] = before + change * (substep / substeps)
+            ctrl[:] = last + change * (substep / substeps)
             self.batch.step()
 
     def snapshot(self, planned: Array) -> dict[str, Any]:

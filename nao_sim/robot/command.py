@@ -109,15 +109,24 @@ class CommandLayer:
         the ends of the range, so that no joint runs into its stop.
         """
         previous, period = self.setpoint, self._period
-        speed = np.minimum(self.max_speed, self._speed + self._acceleration * period)
-        up = np.minimum(speed, self._stopping(self.high - previous))
-        down = np.minimum(speed, self._stopping(previous - self.low))
-        step = np.minimum(np.maximum(self.targets - previous, -down * period), up * period)
-        setpoint = previous + step
+        setpoint, speed = self.glide(previous, self.targets, self._speed)
         hold_pairs(previous, setpoint, self.targets, speed * period)
         self._speed = np.abs(setpoint - previous) / period
         self.setpoint = setpoint
         return setpoint
+
+    def glide(self, setpoint: np.ndarray, targets: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return set-points one period later, anti-collision tables left out, and the speeds they were held to.
+
+        Args:
+            setpoint, targets: ``(..., 25)`` now, and where to.
+            speed: ``(..., 25)`` of the step before, rad/s.
+        """
+        period = self._period
+        speed = np.minimum(self.max_speed, speed + self._acceleration * period)
+        up = np.minimum(speed, self._stopping(self.high - setpoint))
+        down = np.minimum(speed, self._stopping(setpoint - self.low))
+        return setpoint + np.minimum(np.maximum(targets - setpoint, -down * period), up * period), speed
 
     def _stopping(self, room: np.ndarray) -> np.ndarray:
         """Return the speed from which a joint still stops within ``room`` rad: v² / 2a plus the period it goes on."""
