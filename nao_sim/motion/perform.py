@@ -50,8 +50,12 @@ class MotionLog:
     names: tuple[str, ...] = ACTUATED
 
 
-class _Recorder:
-    """Collects one row a control period."""
+class Recorder:
+    """Collects one row of a :class:`MotionLog` a control period.
+
+    Args:
+        nao: the robot; time counts from now.
+    """
 
     def __init__(self, nao: Nao) -> None:
         self.nao = nao
@@ -60,6 +64,7 @@ class _Recorder:
         self.fell_at: float | None = None
 
     def add(self, targets: Array, commands: Array) -> None:
+        """Take down this moment: what was meant and what was sent, rad, shape (25,), and what the body does."""
         nao = self.nao
         if self.fell_at is None and nao.fallen:
             self.fell_at = nao.time - self.start
@@ -70,6 +75,7 @@ class _Recorder:
         )
 
     def log(self) -> MotionLog:
+        """Return what was collected."""
         names = [entry.name for entry in fields(MotionLog)]
         columns: dict[str, Any] = {
             name: np.array(column) for name, column in zip(names, zip(*self.rows, strict=True), strict=False)
@@ -107,7 +113,7 @@ def perform(
     low, high = joint_table().select(ACTUATED).range_rad(nao.limits).T
     feedback = Balance()
     gyro = nao.data.sensor("Gyrometer").data
-    recorder = _Recorder(nao)
+    recorder = Recorder(nao)
     recorder.add(trajectory.sample(trajectory.times[0]), nao.setpoint)
     for step in range(steps):
         command = plan[step]

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nao_sim.motion.trajectory import CONTROL_PERIOD
-from nao_sim.motion.walking.leg_kinematics import LEG_COLUMNS, rotation, solve_legs
+from nao_sim.motion.walking.leg_kinematics import LEG_COLUMNS, solve_legs
 from nao_sim.robot.joints import ACTUATED
 from nao_sim.robot.model import model_spec
 from nao_sim.robot.placement import place
@@ -52,7 +52,7 @@ class WalkingBody:
 
         Args:
             feet: soles, shape (n, 2, 4).
-            com: centre of mass, m, shape (n, 2).
+            com: centre of mass, m, shape (n, 3).
             ahead: ShoulderPitch to add on the left and take away on the right, rad, shape (n,).
 
         Returns:
@@ -60,12 +60,11 @@ class WalkingBody:
         """
         targets = np.tile(self.targets, (len(com), 1))
         targets[:, _SHOULDERS] += ahead[:, None] * [1.0, -1.0]
-        wanted = np.column_stack([com, np.full(len(com), self.com_height)])
-        torso = wanted + self._torso_over_com
+        torso = com + self._torso_over_com
         lean = np.full(len(com), self.pitch)
         for _ in range(_PASSES):
             targets[:, LEG_COLUMNS], heading = solve_legs(torso, np.zeros(len(com)), lean, feet)
-            torso = torso + wanted - self._centres_of_mass(self._configurations(targets, torso, heading))
+            torso = torso + com - self._centres_of_mass(self._configurations(targets, torso, heading))
         targets[:, LEG_COLUMNS], heading = solve_legs(torso, np.zeros(len(com)), lean, feet)
         return targets, torso, heading
 

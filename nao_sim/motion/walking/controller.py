@@ -38,11 +38,13 @@ class Observation:
     """What the controller knows of the robot, any batch shape (...).
 
     Attributes:
-        rpy: roll, pitch and yaw of the torso, rad, shape (..., 3); yaw 0 is the heading at the start.
-        gyro: angular velocity in the torso frame, rad/s, shape (..., 3).
+        lean: roll and pitch of the torso, rad, shape (..., 2).
+        yaw: its heading against the start, rad, shape (...).
+        gyro: angular velocity about x and y in the torso frame, rad/s, shape (..., 2).
     """
 
-    rpy: NDArray[np.float64]
+    lean: NDArray[np.float64]
+    yaw: NDArray[np.float64]
     gyro: NDArray[np.float64]
 
 
@@ -82,9 +84,9 @@ class WalkController:
         """
         plan, k = self.plan, min(self._tick, len(self.plan.times) - 1)
         self._tick += 1
-        roll, pitch = seen.rpy[..., 0], seen.rpy[..., 1] - self._pitch
+        roll, pitch = seen.lean[..., 0], seen.lean[..., 1] - self._pitch
         self._observe_capture_point(roll, pitch, seen.gyro)
-        self._step(k, seen.rpy[..., 2])
+        self._step(k, seen.yaw)
         weight = plan.support[k][:, None]
         feet = np.broadcast_to(plan.feet[k], (*self._batch, 2, 4)).copy()
         feet[..., :2] = displaced(self._moved, plan.feet[k, :, :2])
@@ -156,7 +158,9 @@ class WalkController:
     ) -> None:
         gains = self.settings.gains
         loaded = np.isnan(self.plan.swing[k]).astype(float)
-        out[..., _ANKLE_PITCH] += loaded * (gains.ankle_pitch * pitch + gains.ankle_pitch_rate * gyro[..., 1])[..., None]
+        out[..., _ANKLE_PITCH] += (
+            loaded * (gains.ankle_pitch * pitch + gains.ankle_pitch_rate * gyro[..., 1])[..., None]
+        )
         out[..., _ANKLE_ROLL] += loaded * (gains.ankle_roll * roll + gains.ankle_roll_rate * gyro[..., 0])[..., None]
 
 

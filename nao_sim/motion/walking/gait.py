@@ -19,6 +19,7 @@ class Gait:
     double_support: float
     settle_s: float
     foot_lift_m: float
+    lower_m: float
     stance_width_m: float
     most_forward_m: float
     most_sideways_m: float

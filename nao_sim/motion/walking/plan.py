@@ -31,7 +31,7 @@ class WalkPlan:
         support: share of the weight that the zero moment point puts on each foot, shape (n, 2).
         swing: 0 … 1 how far the foot in the air has come, NaN for a foot on the floor, shape (n, 2).
         zmp: the reference, m, shape (n, 2).
-        com: centre of mass, m, shape (n, 2); its height is constant.
+        com: centre of mass, m, shape (n, 3).
         torso: torso origin, m, shape (n, 3).
         heading: of the torso, rad, shape (n,).
         targets: the 25 joints without feedback, rad, shape (n, 25).
@@ -62,17 +62,25 @@ def plan_walk(x: float, y: float, turn: float, settings: WalkSettings | None = N
     steps = footsteps(x, y, turn, settings.gait)
     body = WalkingBody()
     feet, swing, reference, support = _feet_and_zmp(steps, settings.gait, body.com_ahead)
-    model = cart_table(body.com_height, CONTROL_PERIOD, settings.preview)
-    com = follow(model, reference)[0][:, 0]
+    model = cart_table(body.com_height - settings.gait.lower_m, CONTROL_PERIOD, settings.preview)
+    com = np.column_stack([follow(model, reference)[0][:, 0], _height(len(feet), body.com_height, settings.gait)])
     arms = settings.gait.arm_swing_rad_m * (feet[:, 0, :2] - feet[:, 1, :2])
     heading = feet[:, :, 3].mean(axis=1)
     ahead = arms[:, 0] * np.cos(heading) + arms[:, 1] * np.sin(heading) if len(steps) else np.zeros(len(feet))
     targets, torso, torso_heading = body.carry(feet, com, ahead)
     made = body.zero_moment_point(targets, torso, torso_heading)
-    com = com + follow(model, reference - made)[0][:, 0]
+    com[:, :2] += follow(model, reference - made)[0][:, 0]
     targets, torso, torso_heading = body.carry(feet, com, ahead)
     times = np.arange(len(feet)) * CONTROL_PERIOD
     return WalkPlan(times, feet, support, swing, reference, com, torso, torso_heading, targets, tuple(steps))
+
+
+def _height(count: int, standing: float, gait: Gait) -> NDArray[np.float64]:
+    """Return the height of the centre of mass, m, shape (n,): bent knees while walking, StandInit at both ends."""
+    settle = round(gait.settle_s / CONTROL_PERIOD)
+    into = np.clip(np.arange(count) / settle, 0.0, 1.0)
+    share = np.minimum(into, into[::-1])
+    return standing - gait.lower_m * share**3 * (10 - 15 * share + 6 * share * share)
 
 
 def _feet_and_zmp(
@@ -129,5 +137,5 @@ def _swing(
     s = np.clip((share - 0.12) / 0.76, 0.0, 1.0)
     smooth = s**3 * (10 - 15 * s + 6 * s * s)
     path = start + smooth[:, None] * (goal - start)
-    path[:, 2] = lift * (4 * share * (1 - share)) ** 2
+    path[:, 2] = lift * np.sin(np.pi * share) ** 2
     return path
