@@ -13,6 +13,8 @@ import numpy as np
 from recognizer.static.types import Floats, Image, Mask
 
 BORDER = 0.06  # of the shorter side: the frame of pixels from which the surface starts
+STRIDE = 3
+FEWEST = 30  # border pixels that a surface may rest on
 OUTLIER = 3.5  # robust standard deviations
 LIGHTNESS_WEIGHT = 0.35  # a shadow changes lightness more than colour
 
@@ -22,7 +24,7 @@ class Departure:
     """How far each pixel is from the background surface."""
 
     distance: Floats  # (h, w) in robust standard deviations
-    plainness: float  # share of the border (but the lower edge) that the surface explains
+    plainness: float  # share of the border, lower edge apart, that the surface explains
     spread: float  # Lab units: robust standard deviation of what it explains
 
 
@@ -33,34 +35,36 @@ def departure(bgr: Image, iterations: int = 6) -> Departure:
         bgr: (h, w, 3) uint8.
         iterations: refits; the first ones see only the border.
     """
-    lab = cv2.cvtColor(bgr.astype(np.float32) / 255, cv2.COLOR_BGR2LAB).reshape(-1, 3)
+    colours = cv2.cvtColor(bgr.astype(np.float32) / 255, cv2.COLOR_BGR2LAB)
     height, width = bgr.shape[:2]
-    basis = _quadratic(height, width)
     edge = max(2, round(BORDER * min(height, width)))
     border = np.ones((height, width), bool)
-    border[edge:-edge, edge:-edge] = False
-    frame = border.ravel()
+    border[edge:, edge:-edge] = False  # not the lower edge, where an arm enters
+    # A smooth surface needs no more than every third pixel.
+    lab, frame = colours[::STRIDE, ::STRIDE].reshape(-1, 3), border[::STRIDE, ::STRIDE].ravel()
+    terms = _quadratic(height, width)
+    basis = terms[::STRIDE, ::STRIDE].reshape(-1, 6)
     used = frame.copy()
     for turn in range(iterations):
         coefficients = np.linalg.lstsq(basis[used], lab[used], rcond=None)[0]
         residual = lab - basis @ coefficients
-        spread = 1.4826 * np.median(np.abs(residual[used]), axis=0) + 0.5
-        distance = np.sqrt(((residual / spread) ** 2) @ [LIGHTNESS_WEIGHT, 1.0, 1.0])
-        inliers = distance < OUTLIER
+        spread = 1.4826 * np.median(np.abs(residual[used & frame]), axis=0) + 0.5
+        inliers = _length(residual, spread) < OUTLIER
         wanted = inliers & frame if turn < 2 else inliers
-        if wanted.sum() < 50:
+        if (wanted & frame).sum() < FEWEST:
             break
         used = wanted
-    border[-edge:] = False  # an arm enters here
-    return Departure(
-        distance.reshape(height, width), float(inliers[border.ravel()].mean()), float(np.linalg.norm(spread))
-    )
+    distance = _length(colours - terms @ coefficients, spread)
+    return Departure(distance, float((distance[border] < OUTLIER).mean()), float(np.linalg.norm(spread)))
+
+
+def _length(residual: np.ndarray, spread: np.ndarray) -> np.ndarray:
+    return np.sqrt(((residual / spread) ** 2) @ np.array([LIGHTNESS_WEIGHT, 1.0, 1.0]))
 
 
 def _quadratic(height: int, width: int) -> Floats:
     y, x = np.mgrid[-1 : 1 : height * 1j, -1 : 1 : width * 1j]
-    x, y = x.ravel(), y.ravel()
-    return np.column_stack([np.ones_like(x), x, y, x * x, x * y, y * y])
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
 
 
 def foreground(found: Departure) -> Mask:

@@ -92,7 +92,7 @@ def _segment(name: str, bgr: Image, gains: Floats) -> Mask | None:
 
 def objects(mask: Mask) -> list[Mask]:
     """Return the objects of a mask, the one with most feature pixels first, then by size; small ones are left out."""
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
     areas = stats[:, cv2.CC_STAT_AREA]
     order = [int(i) for i in np.argsort(-areas) if i > 0 and areas[i] >= SMALLEST_OBJECT * mask.size][:MOST_OBJECTS]
     if not order:

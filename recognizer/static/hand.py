@@ -33,7 +33,7 @@ def most_featured(mask: Mask, erosion: int = 0) -> Mask:
     Returns:
         (h, w) bool, all False for an empty mask.
     """
-    body = mask.astype(np.uint8)
+    body: np.ndarray = mask.astype(np.uint8)
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * erosion + 1, 2 * erosion + 1))
     if erosion > 0:
         body = cv2.erode(body, kernel)

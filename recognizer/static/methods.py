@@ -62,7 +62,7 @@ def method_of(database: Database) -> StaticMethod:
     method = METHODS.get(database.method)
     if method is None:
         raise DatabaseError(
-            f"the database is of method '{database.method}'; photos need one of {', '.join(METHODS)}, train it on photos"
+            f"the database is of method '{database.method}', photos need {' or '.join(METHODS)}; train one on photos"
         )
     if database.version != method.version or database.names != method.names:
         raise DatabaseError(

@@ -11,6 +11,7 @@ import tomllib
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ RADII = {
 }
 FAN = {"index": -1.0, "middle": -0.25, "ring": 0.35, "little": 1.1}  # share of the spread, towards the little finger
 THUMB_BONES = np.array([0.50, 0.40, 0.34])
-THUMB_RADII = np.array([0.19, 0.15, 0.135, 0.095])
+THUMB_RADII = (0.19, 0.15, 0.135, 0.095)
 THUMB_BASE = np.array([0.25, 0.26, 0.08])
 
 Piece = list[tuple[Floats, float]]  # the convex hull of balls: (centre (3,), radius) each
@@ -72,10 +73,13 @@ class Build:
 def postures() -> tuple[Posture, ...]:
     """Return the postures of `postures.toml`."""
     text = files("recognizer.static").joinpath("postures.toml").read_text(encoding="utf-8")
-    return tuple(
-        Posture(**{key: tuple(value) if isinstance(value, list) else value for key, value in entry.items()})
-        for entry in tomllib.loads(text)["posture"]
-    )
+    entries: list[dict[str, Any]] = tomllib.loads(text)["posture"]
+    return tuple(_posture(entry) for entry in entries)
+
+
+def _posture(entry: dict[str, Any]) -> Posture:
+    lists = {name: tuple(value) for name, value in entry.items() if isinstance(value, list)}
+    return Posture(**{**entry, **lists})
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import numpy as np
 
 from recognizer.static.hand import centroid
 from recognizer.static.noise import fill_holes
-from recognizer.static.types import Floats, Image, Mask
+from recognizer.static.types import Floats, Mask
 
 RINGS = (1.35, 1.6, 1.9)  # palm radii at which limbs are looked for
 WRIST_WIDTH = 1.0  # palm radii: a limb at least this wide is an arm; a finger is about half as wide
@@ -70,7 +70,7 @@ def hand_frames(mask: Mask) -> list[HandFrame]:
     return frames
 
 
-def _frame_along(whole: Mask, distance: Floats, up: Floats, arm_found: bool) -> HandFrame:
+def _frame_along(whole: Mask, distance: np.ndarray, up: Floats, arm_found: bool) -> HandFrame:
     """Place the palm circle, given the direction of the fingers.
 
     The palm is wide and near the fingers' end; a forearm can be as wide, but is further from it.
@@ -150,20 +150,7 @@ def canonical_mask(mask: Mask, frame: HandFrame) -> Floats:
     return view
 
 
-def canonical_grey(bgr: Image, mask: Mask, frame: HandFrame) -> Floats:
-    """Return the (64, 64) lightness of the hand in its own frame, in its own contrast; 0 off the hand.
-
-    Lightness is centred on the hand's median and divided by its spread, so that light and skin tone drop out.
-    """
-    grey = cv2.cvtColor(bgr, cv2.COLOR_BGR2GRAY).astype(np.float32)
-    values = grey[mask]
-    middle = float(np.median(values)) if len(values) else 0.0
-    spread = float(np.percentile(values, 90) - np.percentile(values, 10)) + 8.0 if len(values) else 1.0
-    view = np.clip((warp(grey, frame) - middle) / spread, -1.5, 1.5)
-    return view * (canonical_mask(mask, frame) > 0.5)
-
-
-def warp(image: Floats, frame: HandFrame) -> Floats:
+def warp(image: np.ndarray, frame: HandFrame) -> Floats:
     """Return the (64, 64) view of a single-channel picture in the hand's frame; the border is repeated outwards."""
     shrink = VIEW * frame.radius / SIDE
     if shrink > 1.5:  # averaged first, or thin fingers would be sampled away

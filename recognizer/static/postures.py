@@ -23,6 +23,7 @@ from recognizer.neighbours import NeighbourClassifier
 from recognizer.static.types import Floats
 
 FALSE_REJECTION = 0.03  # of the database's own postures, person-disjoint
+IRRELEVANT_COST = 1.15  # an irrelevant hand must be nearer than a posture by this factor to win
 
 
 class PostureClassifier(ClassifierMixin, BaseEstimator):
@@ -32,7 +33,7 @@ class PostureClassifier(ClassifierMixin, BaseEstimator):
     ----------
     n_neighbors : int, default=5
         k.
-    n_components : int, default=100
+    n_components : int, default=200
         Dimensions kept by the PCA, at most.
     shrinkage : float, default=0.05
         Of the covariance within classes, 0 to 1.
@@ -49,7 +50,7 @@ class PostureClassifier(ClassifierMixin, BaseEstimator):
         The projected samples.
     """
 
-    def __init__(self, n_neighbors: int = 5, n_components: int = 100, shrinkage: float = 0.05) -> None:
+    def __init__(self, n_neighbors: int = 5, n_components: int = 200, shrinkage: float = 0.05) -> None:
         self.n_neighbors = n_neighbors
         self.n_components = n_components
         self.shrinkage = shrinkage
@@ -88,7 +89,8 @@ class PostureClassifier(ClassifierMixin, BaseEstimator):
 
     def predict(self, X: Any) -> np.ndarray:
         """Return the class with most votes of each query."""
-        return self.classes_[np.argmax(self.predict_proba(X), axis=1)]
+        winners = np.argmax(self.predict_proba(X), axis=1)
+        return self.classes_[winners]
 
 
 class PostureModel:
@@ -135,9 +137,12 @@ class PostureModel:
         """Name one posture vector; ``among`` narrows the labels (irrelevant hands stay possible)."""
         distances, rows = self.classifier.kneighbors(vector[None], len(self.database))
         far, order = distances[0], rows[0]
+        far = np.where(self.database.labels[order] == IRRELEVANT, far * IRRELEVANT_COST, far)
         if among is not None:
             keep = np.isin(self.database.labels[order], [*among, IRRELEVANT])
             far, order = far[keep], order[keep]
+        again = np.argsort(far, kind="stable")
+        far, order = far[again], order[again]
         k = self.classifier.n_neighbors
         return decide(self.database, order[: 4 * k], far[: 4 * k], k, self.threshold_)
 

@@ -21,7 +21,8 @@ from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.types import Image
 
 # Distances of less likely guesses count this much more, so that they win only where the likely one is poor.
-SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.15, "background": 1.15}
+SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.4, "background": 1.4}
+REJECTED_COST = 1.3  # something that is a posture is rather the hand meant than something that is none
 TILT_COST = 0.3  # added to 1 for a hand pointing down, where no arm leaves the picture to say so
 NO_HAND = 2.5  # thresholds: an object further than this from every hand is no hand
 
@@ -101,8 +102,8 @@ class PhotoRecognizer:
         best = seen[0]
         if best.decision.distance > NO_HAND * self.model.threshold_:
             raise NoHandError(
-                f"nothing in the photo is shaped like a hand (nearest is {best.decision.distance:.3g} away from any "
-                f"known one, limit {NO_HAND * self.model.threshold_:.3g}); show the whole hand before a plain background"
+                f"nothing in the photo is shaped like a hand (distance {best.decision.distance:.3g} from any known, "
+                f"limit {NO_HAND * self.model.threshold_:.3g}); show the whole hand before a plain background"
             )
         return best.decision, _warnings(seen)
 
@@ -114,7 +115,7 @@ class PhotoRecognizer:
             nearest = decision.neighbours[0].distance
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
-            seen.append(Seen(candidate, decision, float(cost)))
+            seen.append(Seen(candidate, decision, float(cost * (REJECTED_COST if decision.rejected else 1.0))))
         return sorted(seen, key=lambda s: s.cost)
 
     def _allowed(self, among: Iterable[str] | None) -> set[str] | None:

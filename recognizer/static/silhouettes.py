@@ -63,8 +63,9 @@ def flesh(skeleton: Skeleton, build: Build, forearm: float) -> list[Piece]:
     thick, wide = build.thickness, build.palm_width
     fingers, thumb = skeleton.fingers, skeleton.thumb
     pieces: list[Piece] = []
-    for joints, radii in [*((fingers[name], RADII[name]) for name in FINGERS), (thumb, THUMB_RADII)]:
-        balls = [(joint, radius * thick) for joint, radius in zip(joints, radii, strict=True)]
+    limbs: list[tuple[Floats, tuple[float, ...]]] = [(fingers[name], RADII[name]) for name in FINGERS]
+    for joints, radii in [*limbs, (thumb, THUMB_RADII)]:
+        balls = [(joints[i], radii[i] * thick) for i in range(len(joints))]
         pieces.extend([a, b] for a, b in pairwise(balls))
     half = 0.29 * build.wrist - 0.1
     wrist: Piece = [(np.array([-half, 0.0, 0.0]), 0.11), (np.array([half, 0.0, 0.0]), 0.11)]

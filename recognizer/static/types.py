@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-Image = NDArray[np.uint8]  # (h, w, 3) BGR
+Image = NDArray[Any]  # (h, w, 3) uint8 BGR; Any because OpenCV's hints are wider
 Mask = NDArray[np.bool_]  # (h, w), True on skin
 Floats = NDArray[np.float64]
 Contour = NDArray[np.float64]  # (n, 2) x, y in pixels, closed: the last point joins the first
