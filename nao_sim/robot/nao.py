@@ -64,8 +64,9 @@ class Nao:
         self.limits = limits
         self._command = CommandLayer(limits, CONTROL_PERIOD_S)
         steps = round(CONTROL_PERIOD_S / self.model.opt.timestep)
-        # The motor boards interpolate between two set-points.
-        self._ramp = np.arange(1, steps + 1)[:, np.newaxis] / steps
+        # The motor boards interpolate between two set-points; each step gets the value at its beginning, so that the
+        # result hardly depends on the time step.
+        self._ramp = np.arange(steps)[:, np.newaxis] / steps
         ids = [self.model.joint(name).id for name in ACTUATED]
         self._qpos = self.model.jnt_qposadr[ids]
         self._dof = self.model.jnt_dofadr[ids]
@@ -167,7 +168,7 @@ class Nao:
         """
         model, data, ctrl = self.model, self.data, self.data.ctrl
         for _ in range(n):
-            start = ctrl[self._ctrl]
+            start = self._command.setpoint
             ramp = start + self._ramp * (self._command.advance() - start)
             # Sensors are read once a period: the steps before the last skip them, which changes nothing else.
             model.opt.disableflags |= _NO_SENSORS

@@ -208,7 +208,7 @@ def _run(model: mujoco.MjModel, joint: str, motor: str, limits: str) -> _Run:
             start = command.setpoint
             change = command.advance() - start
             waited = waited + 1 if not change.any() else 0
-            for k in range(1, steps + 1):
+            for k in range(steps):
                 for source, actuator in wired:
                     data.ctrl[actuator] = start[source] + change[source] * k / steps
                 mujoco.mj_step(model, data)
