@@ -49,6 +49,7 @@ from nao_sim.robot.sensors import FSR
 Array = NDArray[np.float64]
 
 REWARD_WIDTH_RAD = 0.1
+_NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 _DOWN_COS, _DOWN_HEIGHT_M = float(np.cos(np.deg2rad(85.0))), 0.17
 
 
@@ -85,9 +86,14 @@ class NaoPhysics(dm_mujoco.Physics):
             nstep: physics steps in a control period.
         """
         raw, model, ctrl = self.raw, self._raw_model, self.ctrl
-        change = (self.command.advance() - ctrl) / nstep
-        for _ in range(nstep):
-            ctrl += change
+        start = self.command.setpoint
+        change = (self.command.advance() - start) / nstep
+        # Sensors are read once a period: the steps before the last skip them, which changes nothing else.
+        model.opt.disableflags |= _NO_SENSORS
+        for substep in range(nstep):
+            if substep == nstep - 1:
+                model.opt.disableflags &= ~_NO_SENSORS
+            ctrl[:] = start + substep * change
             mujoco.mj_step(model, raw)
         if raw.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
             raise control.PhysicsError("the simulation became unstable; look at what was commanded")

@@ -23,7 +23,7 @@ from nao_sim.robot.sensors import FSR
 
 Array = NDArray[np.float64]
 
-_PUSH_S = 0.1  # a push takes so long
+_PUSH_S = 0.04  # a push takes so long
 # Down: the torso leans beyond 85 degrees, or is lower than any motion on the feet brings it.
 _DOWN_COS, _DOWN_HEIGHT_M = np.cos(np.deg2rad(85.0)), 0.17
 _LEG_COLUMNS = [ACTUATED.index(name) for name in LEG_JOINTS]
@@ -132,8 +132,8 @@ class Crowd:
         substeps = round(CONTROL_PERIOD / self.model.opt.timestep)
         ctrl, change, last = self.batch.bind("ctrl"), late - self._felt, self._felt
         self._felt = late
-        for substep in range(1, substeps + 1):
-            ctrl[:] = last + change * (substep / substeps)
+        for substep in range(substeps):
+            ctrl[:] = last + (substep / substeps) * change
             self.batch.step()
 
     def snapshot(self, planned: Array) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,6 +60,7 @@ def stress(
     seed: int = 0,
     *,
     sweep: bool = True,
+    sizes: Mapping[str, float] | None = None,
     threads: int = 0,
     progress: Progress | None = None,
 ) -> StressReport:
@@ -69,6 +70,7 @@ def stress(
         trajectory: what to do.
         trials: how many.
         seed: trial k of a seed is always the same.
+        sizes: factor → how far it may go, in multiples of its usual size; None: all at 1.
         sweep: also look for the factor that breaks the motion first.
         threads: 0 for all cores; the result does not depend on it.
         progress: called with (stage, done, total).
@@ -77,7 +79,7 @@ def stress(
     outcomes = []
     for first in range(0, trials, _CHUNK):
         chosen = range(first, min(first + _CHUNK, trials))
-        outcomes.append(play_all(trajectory, draw_trials(seed, chosen, nbody), threads=threads))
+        outcomes.append(play_all(trajectory, draw_trials(seed, chosen, nbody, sizes), threads=threads))
         if progress is not None:
             progress("trials", chosen.stop, trials)
     outcome = Outcome(*(np.concatenate([getattr(o, name) for o in outcomes]) for name in ("fell_at", "worst_lean")))
@@ -94,9 +96,9 @@ def stress(
     )
 
 
-def replay_trial(trajectory: Trajectory, seed: int, index: int) -> MotionLog:
+def replay_trial(trajectory: Trajectory, seed: int, index: int, sizes: Mapping[str, float] | None = None) -> MotionLog:
     """Play one trial of a stress test again and return its log."""
-    return replay(trajectory, draw_trials(seed, [index], _nbody()))
+    return replay(trajectory, draw_trials(seed, [index], _nbody(), sizes))
 
 
 def describe_trial(seed: int, index: int) -> dict[str, float | list[float]]:

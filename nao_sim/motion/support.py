@@ -19,7 +19,7 @@ def centre_of_mass(model: mujoco.MjModel, body_pose: NDArray[np.float64]) -> NDA
     """Return the centre of mass, m, shape (m, 3), for body poses of shape (m, nbody, 7)."""
     count, bodies = body_pose.shape[:2]
     turned = Rotation.from_quat(body_pose[..., 3:].reshape(-1, 4), scalar_first=True)
-    local = np.broadcast_to(model.body_ipos, (count, bodies, 3)).reshape(-1, 3)
+    local = np.tile(model.body_ipos, (count, 1))
     centres = body_pose[..., :3] + turned.apply(local).reshape(count, bodies, 3)
     robot = model.body_mass * (model.body_rootid == model.body("torso").id)
     return np.einsum("b,mbk->mk", robot, centres) / robot.sum()
