@@ -9,8 +9,7 @@ import cv2
 import numpy as np
 
 from nao_sim.people.avi import AviWriter
-from nao_sim.people.motions import joints
-from nao_sim.people.persons import FINGERS
+from nao_sim.people.performance import of_a_finger
 from nao_sim.people.sensor import Exposure, Image
 from nao_sim.people.shots import Shot
 from nao_sim.people.stage import Stage
@@ -48,8 +47,7 @@ def _exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:
     offsets = np.linspace(0, shutter, _BLUR_STEPS)
     angles = np.stack([shot.performance.angles(times + offset) for offset in offsets], axis=1)
     turning = np.abs(angles[:, -1] - angles[:, 0])
-    body = [k for name, k in joints().items() if not any(finger in name for finger in ("thumb", *FINGERS))]
-    fast = turning[:, body].max(axis=1) > _BLUR_RAD
+    fast = turning[:, ~of_a_finger()].max(axis=1) > _BLUR_RAD
     return angles, [_BLUR_STEPS if moving else 1 for moving in fast]
 
 

@@ -9,12 +9,14 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nao_sim.people.figure import skeleton
 from nao_sim.people.surface import Array
 from nao_sim.resources import resource
 
 IRRELEVANT = "irrelevant"
+SLIDES = ("root_x", "root_y", "root_z")
 # Angles that change sign when left and right are exchanged: turns about the vertical and the forward axis.
 _TRUNK = ("root", "waist", "chest", "head")
 _ODD = ("root_y", *(f"{body}_{turn}" for body in _TRUNK for turn in ("roll", "yaw")))
@@ -63,6 +65,15 @@ def joints() -> dict[str, int]:
 
 
 @lru_cache
+def joint_ranges() -> tuple[Array, Array]:
+    """Lowest and highest angle (nq,) of every joint, rad; infinite where a joint has no limit."""
+    model = skeleton().compile()
+    limited = model.jnt_limited.astype(bool)
+    low, high = model.jnt_range.T
+    return np.where(limited, low, -np.inf), np.where(limited, high, np.inf)
+
+
+@lru_cache
 def hand_postures() -> dict[str, dict[str, float]]:
     """Posture name -> joint (without side) -> degrees."""
     with resource("assets", "people", "hands.toml").open("rb") as file:
@@ -77,30 +88,30 @@ def hand_postures() -> dict[str, dict[str, float]]:
     }
 
 
+@dataclass(frozen=True)
+class Pose:
+    """Angles (nq,) in rad (slides in statures), and which joints (nq,) the pose says anything about."""
+
+    angles: Array
+    named: NDArray[np.bool_]
+
+
 @lru_cache
-def pose(name: str, mirrored: bool = False) -> Array:
-    """Angles (nq,) in radians beyond standing at rest with hanging hands; slides are in statures."""
-    out = np.zeros(len(joints()))
+def pose(name: str, mirrored: bool = False) -> Pose:
+    """Look up a pose of the motion file, or its mirror image."""
+    angles, named = np.zeros(len(joints())), np.zeros(len(joints()), dtype=bool)
     for key, value in tables()["pose"][name].items():
         side = key[:2] if key[:2] in ("r_", "l_") else ""
         if mirrored and side:
             side = "l_" if side == "r_" else "r_"
         stem = key[2:] if side else key
-        if stem == "hand":
-            out += hand_offset(value, side)
-            continue
         sign = -1.0 if mirrored and stem in _ODD else 1.0
-        out[joints()[side + stem]] += sign * (value if stem in ("root_x", "root_y", "root_z") else np.radians(value))
-    return out
-
-
-def hand_offset(posture: str, side: str) -> Array:
-    """Angles (nq,) in radians that turn a relaxed hand of ``side`` (``r_`` or ``l_``) into ``posture``."""
-    out = np.zeros(len(joints()))
-    relaxed = hand_postures()["relaxed"]
-    for joint, angle in hand_postures()[posture].items():
-        out[joints()[side + joint]] = np.radians(angle - relaxed[joint])
-    return out
+        said = hand_postures()[value] if stem == "hand" else {stem: sign * value}
+        for joint, amount in said.items():
+            k = joints()[side + joint]
+            angles[k] = amount if joint in SLIDES else np.radians(amount)
+            named[k] = True
+    return Pose(angles, named)
 
 
 @lru_cache

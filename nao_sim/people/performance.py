@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from nao_sim.people.gait import Walk, walk_angles
-from nao_sim.people.motions import Motion, hand_postures, joints, motions, pose, tables
-from nao_sim.people.persons import Person
+from nao_sim.people.motions import SLIDES, Motion, hand_postures, joint_ranges, joints, motions, pose, tables
+from nao_sim.people.persons import FINGERS, Person
 from nao_sim.people.surface import Array
 
 TEMPO = (0.6, 1.6)
@@ -82,9 +83,10 @@ class Performance:
         for side, lean in (("r_", 1.0), ("l_", -1.0)):
             out[:, index[f"{side}hip_flex"]] += out[:, index["root_pitch"]]
             out[:, index[f"{side}hip_abduct"]] -= lean * out[:, index["root_roll"]]
-        for slide in ("root_x", "root_y", "root_z"):
+        for slide in SLIDES:
             out[:, index[slide]] *= self.stature
-        return out
+        low, high = joint_ranges()
+        return np.clip(out, low, high)
 
     def _gesture(self, times: Array) -> Array:
         """Angles (n, nq) of the strokes alone, each joint with its own lag."""
@@ -176,9 +178,12 @@ class _Plan:
         if name == "rest":
             return np.zeros(len(joints()))
         target = pose(name, self.mirrored)
-        posed = target != 0
-        sized = target * (1 + (self.size - 1) * self.motion.reach) + self.jitter * posed
-        return sized - self.base * (posed & _of_a_limb())
+        size = np.where(of_a_finger(), 1.0, 1 + (self.size - 1) * self.motion.reach)
+        return target.angles * size + self._own(target.named)
+
+    def _own(self, named: NDArray[np.bool_]) -> Array:
+        """What this performance adds to the angles of the ``named`` joints; limbs leave how they hung at rest."""
+        return self.jitter * named - self.base * (named & _of_a_limb())
 
     def _step(self, step: Mapping[str, Any], first: bool, half_width: float) -> None:
         skipped = self.rng.random() < step.get("skip", 0.0)
@@ -196,10 +201,10 @@ class _Plan:
             self._stroke(np.array(knots) if knots else np.array([self.at, self._pose(step["to"])]), step["time"])
 
     def _cycle(self, step: Mapping[str, Any]) -> None:
-        turns = [pose(name, self.mirrored) for name in step["cycle"]]
+        poses = [pose(name, self.mirrored) for name in step["cycle"]]
+        turns = [turn.angles for turn in poses]
         middle = np.mean(turns, axis=0)
-        posed = np.abs(turns).sum(axis=0) != 0
-        offset = self.jitter * posed - self.base * (posed & _of_a_limb())
+        offset = self._own(np.any([turn.named for turn in poses], axis=0))
         self.cycles = int(self.rng.integers(step["count"][0], step["count"][1] + 1))
         for _ in range(self.cycles):
             fade = self.rng.uniform(0.85, 1.1)
@@ -236,6 +241,13 @@ class _Plan:
         )
 
 
+@lru_cache
+def of_a_finger() -> NDArray[np.bool_]:
+    """Joints (nq,) of fingers and thumbs: a hand's posture is not made larger."""
+    return np.array([any(finger in name for finger in ("thumb", *FINGERS)) for name in joints()])
+
+
+@lru_cache
 def _of_a_limb() -> NDArray[np.bool_]:
     """Joints (nq,) of arms and legs: a pose names their angle, while trunk and head move from where they are."""
     return np.array([name[:2] in ("r_", "l_") for name in joints()])

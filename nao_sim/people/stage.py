@@ -89,7 +89,8 @@ class Stage:
         self._gl.free()
 
     def set_size(self, width: int, height: int) -> None:
-        """Choose the frame size in pixels."""
+        """Choose the frame size in pixels, and make this stage the one that OpenGL draws on."""
+        self._gl.make_current()
         if (width, height) == self._size:
             return
         if not (16 <= width <= MAX_WIDTH and 16 <= height <= MAX_HEIGHT):
