@@ -112,7 +112,7 @@ def test_a_hand_on_the_head_is_felt() -> None:
 def test_a_finger_on_the_hand_is_felt_where_it_is(name: str, offset: tuple[float, float, float], hung: Nao) -> None:
     hung.reset("StandZero")
     hand = hung.data.body("l_hand")
-    away = np.sign(offset) * [0, 1, 1] * 0.019
+    away = np.sign(offset) * [0, 1, 1] * 0.017
     nao = _with_box([0.01, 0.02, 0.02], list(hand.xpos + hand.xmat.reshape(3, 3) @ (offset + away)), base="fixed")
     assert [sensor for sensor, on in nao.sensors().touch.items() if on] == [f"LHandTouch{name}"]
 
