@@ -16,6 +16,7 @@ from nao_sim.episodes.outcome import measure
 from nao_sim.episodes.provenance import sha256, software, tree_sha256
 from nao_sim.episodes.see import database_of, see
 from nao_sim.gestures import library
+from nao_sim.gestures.act import act
 from nao_sim.motion import MotionLog, Trajectory, perform
 from nao_sim.resources import resource
 from nao_sim.robot import ACTUATED, Nao
@@ -69,7 +70,7 @@ def move(nao: Nao, gesture: Gesture | None) -> MotionLog:
     if gesture is None:
         still = Trajectory(np.zeros(1), nao.setpoint[None])
         return perform(nao, still, settle_s=STANDING_S)
-    return perform(nao, gesture.trajectory())
+    return act(nao, gesture).log
 
 
 def imitate(

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from nao_sim.resources import resource
 from recognizer import Clip, Recognition, Recognizer
+from recognizer.static import PhotoRecognizer
 
 
 def database_of(clip: Clip) -> Path:
@@ -28,4 +29,9 @@ def see(
         among: labels that the context allows; None for all.
         progress: called with frames done and frames promised by the file's header.
     """
+    if clip.still:
+        recognition = PhotoRecognizer.load(database).recognize(clip.source, among)
+        if progress is not None:
+            progress(1, 1)
+        return recognition
     return Recognizer.load(database).recognize(clip, among, progress)
