@@ -45,14 +45,13 @@ def run(
     with Nao(fingers=False) as nao:
         nbody = nao.model.nbody
     crowd = Crowd(draw_trials(seed, indices, nbody, sizes))
-    controller = WalkController(plan_walk(*goal), (len(indices),), settings)
+    controller = WalkController(plan_walk(*goal), settings)
     pose = crowd.batch.bind("xpos")[:, crowd.torso, :2].copy()
     steps = len(controller.plan.times) + SETTLE_PERIODS
     up = np.ones(len(indices), bool)
     for step in range(steps):
-        yaw = yaw_of(crowd.batch.bind("xquat")[:, crowd.torso])
         crowd.push(step / steps, steps * 0.02)
-        crowd.step(controller.targets(Observation(crowd.lean(), yaw, crowd.rate())))
+        crowd.step(controller.targets(Observation(crowd.lean(), crowd.rate())))
         up &= ~crowd.down()
     moved = crowd.batch.bind("xpos")[:, crowd.torso, :2] - pose
     return up, np.column_stack([moved, yaw_of(crowd.batch.bind("xquat")[:, crowd.torso])])
@@ -68,7 +67,7 @@ def main() -> None:
     parser.add_argument("--walks", nargs="*", default=list(WALKS), choices=list(WALKS))
     parser.add_argument("--only", nargs="*", default=list(FACTORS), choices=list(FACTORS))
     args = parser.parse_args()
-    sizes = {name: args.size for name in args.only}
+    sizes = dict.fromkeys(args.only, args.size)
     if args.push is not None:
         sizes["push"] = args.push
     settings = walk_settings()

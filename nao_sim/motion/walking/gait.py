@@ -24,6 +24,9 @@ class Gait:
     most_forward_m: float
     most_sideways_m: float
     most_turn_rad: float
+    clearance_m: float
+    sole_x_m: tuple[float, float]
+    sole_y_m: tuple[float, float]
     zmp_inset_m: float
     arm_swing_rad_m: float
 
@@ -46,11 +49,6 @@ class Gains:
     ankle_pitch_rate: float
     ankle_roll: float
     ankle_roll_rate: float
-    step: float
-    most_step_m: float
-    most_inward_m: float
-    freeze: float
-    heading: float
 
 
 @dataclass(frozen=True)
@@ -68,4 +66,5 @@ def walk_settings() -> WalkSettings:
     data = tomllib.loads(resource("assets", "motions", "walk.toml").read_text("utf-8"))
     # Degrees stay in the file; every *_deg and *_deg_m becomes *_rad and *_rad_m.
     gait = {k.replace("_deg", "_rad"): np.radians(v) if "_deg" in k else v for k, v in data["gait"].items()}
+    gait |= {k: tuple(v) for k, v in gait.items() if isinstance(v, list)}
     return WalkSettings(Gait(**gait), Preview(**data["preview"]), Gains(**data["feedback"]))

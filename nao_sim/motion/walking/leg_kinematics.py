@@ -1,11 +1,11 @@
 """Closed-form inverse kinematics of NAO's legs, with the one motor that turns both HipYawPitch joints.
 
-A leg is RHipYawPitch, HipRoll, HipPitch, KneePitch, AnklePitch, AnkleRoll; the three hip axes meet in one point, and so
-do the two ankle axes, so a sole's pose gives all six angles in closed form (S15; joint axes of ``joints.toml``). The two
-hips share a motor: eleven motors cannot put two soles into two arbitrary poses. What is free here is the torso's
-heading: it is turned until both legs ask for the same HipYawPitch, and then both soles are exact.
+A leg is HipYawPitch, HipRoll, HipPitch, KneePitch, AnklePitch, AnkleRoll; the three hip axes meet in one point, and so
+do the two ankle axes, so a sole's pose gives all six angles in closed form (axes of ``joints.toml``, S15). The two hips
+share a motor: eleven motors cannot put two soles into two arbitrary poses. What is free here is the torso's heading: it
+is turned until both legs ask for the same HipYawPitch, and then both soles are exact.
 
-All functions take any leading batch shape. Torso and soles are given in one frame with z up; angles in rad, lengths in m.
+All functions take any leading batch shape. Torso and soles are given in one frame with z up; rad and m.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ LEG_JOINTS = ("HipYawPitch", "HipRoll", "HipPitch", "KneePitch", "AnklePitch", "
 # The 11 leg motors among the 25, left leg first; the right leg has no HipYawPitch of its own.
 LEG_COLUMNS = np.array([ACTUATED.index(n) for n in ACTUATED if any(part in n for part in ("Hip", "Knee", "Ankle"))])
 _HEADING_STEPS = 4
+# A heading change of 1 opens the hip on that side by about √2 and closes the other by as much: 1 / 2√2.
+_SLOPE = 0.35
 _SIDES = ("L", "R")
 
 
@@ -157,13 +159,9 @@ def solve_legs(
     heading = feet[..., 3].mean(axis=-1)
     hips = hips_at(heading)
     for _ in range(_HEADING_STEPS):
-        # Turning the torso left by 1 opens the left hip by about √2 and closes the right by as much.
         heading = heading + (hips[..., 1] - hips[..., 0]) * _SLOPE
         hips = hips_at(heading)
     world = _transposed(rotation(2, heading) @ lean)
     hip_yaw = hips.mean(axis=-1)
     legs = [leg_angles(s, _times(world, ankles[..., s, :] - torso), world[..., :, 2], hip_yaw) for s in (0, 1)]
     return np.concatenate([hip_yaw[..., None], *legs], axis=-1), heading
-
-
-_SLOPE = 0.35

@@ -1,10 +1,11 @@
 """From footsteps to a motion: feet, zero moment point, centre of mass, torso, against time.
 
-Everything is in the frame of the stance at the start: x forward, y left, origin on the floor midway between the soles.
-A step is a double support, in which the zero moment point goes over to the standing foot, and a single support, in which
-the other foot swings. The centre of mass follows by preview control. Then the torso is placed so that the centre of mass
-of the whole body, legs and arms included, is where the plan has it; and because a body is not a point, the zero moment
-point that its moving limbs really make is computed and the difference previewed once more (Kajita's second pass).
+Everything is in the frame of the stance at the start: x forward, y left, origin on the floor midway between the
+soles. A step is a double support, in which the zero moment point goes over to the standing foot, and a single support,
+in which the other foot swings. The centre of mass follows by preview control. Then the torso is placed so that the
+centre of mass of the whole body, legs and arms included, is where the plan has it; and because a body is not a point,
+the zero moment point that its limbs really make is computed and the difference previewed once more (Kajita's second
+pass).
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ class WalkPlan:
         torso: torso origin, m, shape (n, 3).
         heading: of the torso, rad, shape (n,).
         targets: the 25 joints without feedback, rad, shape (n, 25).
+        lean_rad: the torso's pitch throughout, that of StandInit.
         steps: the footsteps.
     """
 
@@ -47,6 +49,7 @@ class WalkPlan:
     torso: NDArray[np.float64]
     heading: NDArray[np.float64]
     targets: NDArray[np.float64]
+    lean_rad: float
     steps: tuple[Footstep, ...]
 
 
@@ -72,7 +75,9 @@ def plan_walk(x: float, y: float, turn: float, settings: WalkSettings | None = N
     com[:, :2] += follow(model, reference - made)[0][:, 0]
     targets, torso, torso_heading = body.carry(feet, com, ahead)
     times = np.arange(len(feet)) * CONTROL_PERIOD
-    return WalkPlan(times, feet, support, swing, reference, com, torso, torso_heading, targets, tuple(steps))
+    return WalkPlan(
+        times, feet, support, swing, reference, com, torso, torso_heading, targets, body.pitch, tuple(steps)
+    )
 
 
 def _height(count: int, standing: float, gait: Gait) -> NDArray[np.float64]:

@@ -1,7 +1,7 @@
 """Preview control of the zero moment point: the cart-table model (Kajita et al. 2003; Katayama et al. 1985).
 
-The robot is a point mass at a constant height z; the zero moment point is p = x - (z / g) x''. The controller chooses the
-mass's jerk so that p follows a reference whose future is known. It minimises
+The robot is a point mass at a constant height z; the zero moment point is p = x - (z / g) x''. The controller chooses
+the mass's jerk so that p follows a reference whose future is known. It minimises
 
     Σ  Q (p - p_ref)² + (Δstate)ᵀ Qx (Δstate) + R Δjerk²
 

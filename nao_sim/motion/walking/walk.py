@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nao_sim.motion.errors import MotionError
 from nao_sim.motion.perform import MotionLog, Progress, Recorder
@@ -53,13 +52,12 @@ def walk(
     if not all(map(math.isfinite, (x, y, turn))) or math.hypot(x, y) > MOST_M or abs(turn) > MOST_RAD:
         raise MotionError(f"a walk of ({x}, {y}) m turning {turn} rad; ask for at most {MOST_M:g} m and two turns")
     plan = plan_walk(x, y, turn, settings)
-    controller = WalkController(plan, settings=settings)
-    start = roll_pitch_yaw(nao.torso_pose[3:])[2]
+    controller = WalkController(plan, settings)
     recorder = Recorder(nao)
     recorder.add(plan.targets[0], nao.setpoint)
     steps = len(plan.times) + round(settle_s / nao.control_period)
     for step in range(steps):
-        targets = controller.targets(observe(nao, start))
+        targets = controller.targets(observe(nao))
         nao.set_targets(targets)
         nao.step()
         recorder.add(targets, nao.setpoint)
@@ -68,8 +66,6 @@ def walk(
     return recorder.log()
 
 
-def observe(nao: Nao, heading: float = 0.0) -> Observation:
-    """Return what the inertial unit feels; yaw is counted from a heading, rad."""
-    rpy: NDArray[np.float64] = roll_pitch_yaw(nao.torso_pose[3:])
-    yaw = (rpy[2] - heading + np.pi) % (2 * np.pi) - np.pi
-    return Observation(rpy[:2], np.float64(yaw), nao.data.sensor("Gyrometer").data[:2].copy())
+def observe(nao: Nao) -> Observation:
+    """Return what the inertial unit feels now."""
+    return Observation(roll_pitch_yaw(nao.torso_pose[3:])[:2], nao.data.sensor("Gyrometer").data[:2].copy())
