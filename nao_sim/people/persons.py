@@ -91,7 +91,7 @@ def draw_person(name: str, rng: Generator, child: bool) -> Person:
         hand=float(rng.normal(1.0, 0.05)),
         arm=float(rng.normal(1.0, 0.025)),
         leg=float(rng.normal(1.0, 0.02)),
-        fingers=float(rng.normal(1.05, 0.08)),
+        fingers=float(rng.normal(1.14, 0.09)),
         skin=_skin(rng, table),
         hair=_mix(table["hair"][int(rng.integers(len(table["hair"])))], rng, 8),
         hair_style=choose(styles, rng),

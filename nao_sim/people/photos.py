@@ -119,7 +119,9 @@ def _angles(label: str, person: Person, close: bool, side: str, rng: Generator) 
     put(f"{side}pronate", rng.normal(*table()["turn"][label]))
     put(f"{side}wrist_flex", rng.normal(-4, hand["wrist_jitter"]))
     put(f"{side}wrist_deviate", rng.normal(0, hand["wrist_jitter"]))
+    spread = np.exp(rng.normal(0, hand["spread_scale"]))
     for joint, angle in hand_postures()[label].items():
+        angle *= spread if "spread" in joint else 1.0
         jitter = hand["spread_jitter"] if "spread" in joint or "abduct" in joint else hand["finger_jitter"]
         # Joints that bend together err together: a finger's dip follows its pip.
         put(side + joint, angle + rng.normal(0, jitter * (0.5 if joint.startswith("thumb") else 1.0)))
