@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import cv2
-import mujoco
 
 from nao_sim.robot import Nao
 
@@ -23,6 +22,8 @@ VIEWS = {
 
 def main() -> None:
     """Render every view."""
+    import mujoco  # after nao_sim, which chooses how it renders
+
     model = None
     for name, (posture, azimuth, elevation, distance, lookat, width, height) in VIEWS.items():
         with Nao(posture=posture, model=model) as nao:
