@@ -72,7 +72,9 @@ def plan_walk(x: float, y: float, turn: float, settings: WalkSettings | None = N
     ahead = arms[:, 0] * np.cos(heading) + arms[:, 1] * np.sin(heading) if len(steps) else np.zeros(len(feet))
     targets, torso, torso_heading = body.carry(feet, com, ahead)
     made = body.zero_moment_point(targets, torso, torso_heading)
-    com[:, :2] += follow(model, reference - made)[0][:, 0]
+    missing = reference - made
+    missing[0] = 0.0  # the robot stands still at the start
+    com[:, :2] += follow(model, missing)[0][:, 0]
     targets, torso, torso_heading = body.carry(feet, com, ahead)
     times = np.arange(len(feet)) * CONTROL_PERIOD
     return WalkPlan(
