@@ -24,6 +24,7 @@ from recognizer.static.types import Image
 SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.4, "background": 1.4}
 REJECTED_COST = 1.3  # something that is a posture is rather the hand meant than something that is none
 TILT_COST = 0.3  # added to 1 for a hand pointing down, where no arm leaves the picture to say so
+SAME_PLACE = 0.3  # overlap of boxes from which two candidates are one object
 NO_HAND = 2.5  # thresholds: an object further than this from every hand is no hand
 
 
@@ -116,7 +117,8 @@ class PhotoRecognizer:
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
             seen.append(Seen(candidate, decision, float(cost * (REJECTED_COST if decision.rejected else 1.0))))
-        return sorted(seen, key=lambda s: s.cost)
+        seen.sort(key=lambda s: s.cost)
+        return _posture_first(seen)
 
     def _allowed(self, among: Iterable[str] | None) -> set[str] | None:
         if among is None:
@@ -128,6 +130,23 @@ class PhotoRecognizer:
                 f"unknown posture {', '.join(unknown) or '(none given)'}; known: {', '.join(self.labels)}"
             )
         return names
+
+
+def _posture_first(seen: list[Seen]) -> list[Seen]:
+    """Put the best posture first where the nearest object is none: a face or an arm beside the hand is not meant."""
+    first = seen[0]
+    if not first.decision.rejected:
+        return seen
+    elsewhere = [s for s in seen if not s.decision.rejected and _overlap(s, first) < SAME_PLACE]
+    return [elsewhere[0], *(s for s in seen if s is not elsewhere[0])] if elsewhere else seen
+
+
+def _overlap(a: Seen, b: Seen) -> float:
+    """Return intersection over union of two candidates' boxes."""
+    (ax, ay, aw, ah), (bx, by, bw, bh) = a.candidate.box, b.candidate.box
+    wide = max(0.0, min(ax + aw, bx + bw) - max(ax, bx))
+    high = max(0.0, min(ay + ah, by + bh) - max(ay, by))
+    return wide * high / max(aw * ah + bw * bh - wide * high, 1e-9)
 
 
 def _warnings(seen: list[Seen]) -> tuple[str, ...]:

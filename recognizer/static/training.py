@@ -23,7 +23,7 @@ from recognizer.static.types import Floats
 Row = tuple[Floats, str, str, str, str]  # vector, label, action, person, source
 
 
-def learn_from_model_hand(persons: int = 120, takes: int = 2, seed: int = 0) -> Database:
+def learn_from_model_hand(persons: int = 160, takes: int = 2, seed: int = 1) -> Database:
     """Return a database made of silhouettes of the model hand only: nobody's photo is in it.
 
     Args:

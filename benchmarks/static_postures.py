@@ -1,0 +1,72 @@
+"""Measure the posture recogniser on real photos: person-disjoint, and learnt from hands that nobody filmed.
+
+Usage: python benchmarks/static_postures.py ../shared/clips/static [--database assets/databases/static.parquet]
+
+The photos are not part of the project. Only persons with an odd number are reported in the second part: what was
+chosen by looking at photos was chosen on the even ones.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from pathlib import Path
+
+from recognizer.database import IRRELEVANT, Database
+from recognizer.dataset import Entry
+from recognizer.static import PhotoRecognizer, learn_from_photos
+from recognizer.static.evaluation import Score, on_photos, on_unknown_persons
+
+DIGITS = {
+    "0": "round",
+    "1": "pointing",
+    "2": "victory",
+    "3": "three",
+    "4": "four",
+    "5": "stop_hand",
+    "9": "perfect",
+}
+
+
+def read_entries(folder: Path) -> list[Entry]:
+    """Return the labelled photos; digits 6, 7 and 8 are none of the vocabulary's postures."""
+    rows = csv.DictReader((folder / "labels.csv").open())
+    return [
+        Entry(
+            folder / row["file"],
+            row["file"],
+            DIGITS.get(row["digit"], IRRELEVANT),
+            DIGITS.get(row["digit"], f"digit {row['digit']}"),
+            row["person"],
+        )
+        for row in rows
+    ]
+
+
+def report(title: str, score: Score) -> None:
+    print(f"{title}: right {score.accuracy:.3f}, best guess {score.accuracy_without_threshold:.3f}", end="")
+    print(f", others rejected {score.rejected:.3f}" if IRRELEVANT in score.truth else "")
+    labels, counts = score.confusion()
+    for label, row in zip(labels, counts, strict=True):
+        if row.sum():
+            print(f"  {label:11s}", *(f"{n:4d}" for n in row))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("photos", type=Path)
+    parser.add_argument("--database", type=Path, default=Path("assets/databases/static.parquet"))
+    arguments = parser.parse_args()
+    entries = read_entries(arguments.photos)
+    known = [entry for entry in entries if entry.label != IRRELEVANT]
+    for method in ("thesis_static", "static"):
+        report(f"{method}, 7 classes, unknown persons", on_unknown_persons(learn_from_photos(known, method)))
+    odd = [entry for entry in entries if int(entry.person[1:]) % 2]
+    recognizer = PhotoRecognizer(Database.load(arguments.database))
+    report("shipped database, real photos of odd persons", on_photos(recognizer, odd))
+    only = recognizer.database.take(recognizer.database.labels != IRRELEVANT)
+    report("the same without irrelevant hands in the database", on_photos(PhotoRecognizer(only), odd))
+
+
+if __name__ == "__main__":
+    main()
