@@ -22,12 +22,14 @@ class MovingRegions:
         boxes: (n, 4) x, y, width, height of each moving region, as fractions of the image.
         centroid: (x, y) of all moving regions as fractions of the image; NaN when nothing moves.
         area: share of the image that moves.
+        velocity: mean velocity of what moves [image widths, image heights per second].
     """
 
     time: float
     boxes: np.ndarray
     centroid: tuple[float, float]
     area: float
+    velocity: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,8 +74,9 @@ def moving_mask(u: np.ndarray, v: np.ndarray, seconds: float) -> np.ndarray:
     return cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
 
 
-def moving_regions(mask: np.ndarray, time: float) -> MovingRegions:
-    """Box the connected regions of a moving mask, dropping those too small."""
+def moving_regions(u: np.ndarray, v: np.ndarray, time: float, seconds: float) -> MovingRegions:
+    """Box the connected regions of what moves, dropping those too small; arguments as :func:`moving_mask`."""
+    mask = moving_mask(u, v, seconds)
     height, width = mask.shape
     _, _, stats, centres = cv2.connectedComponentsWithStats(mask)
     keep = [i for i in range(1, len(stats)) if stats[i, cv2.CC_STAT_AREA] >= max(3, MIN_REGION * mask.size)]
@@ -82,7 +85,9 @@ def moving_regions(mask: np.ndarray, time: float) -> MovingRegions:
     areas = stats[keep, cv2.CC_STAT_AREA].astype(float)
     x, y = (centres[keep] * areas[:, None]).sum(axis=0) / areas.sum()
     boxes = stats[keep, :4] / np.array([width, height, width, height], float)
-    return MovingRegions(time, boxes, ((x + 0.5) / width, (y + 0.5) / height), float(areas.sum() / mask.size))
+    centroid = ((x + 0.5) / width, (y + 0.5) / height)
+    velocity = (cv2.mean(u, mask)[0] / width / seconds, cv2.mean(v, mask)[0] / height / seconds)
+    return MovingRegions(time, boxes, centroid, float(areas.sum() / mask.size), velocity)
 
 
 def amplitude(regions: list[MovingRegions], size: tuple[int, int], rule: str = "whole_path") -> Amplitude:

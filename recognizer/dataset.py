@@ -97,15 +97,9 @@ def _missing(value: Any) -> bool:
 def clip_features(entry: Entry, method: str) -> np.ndarray | str:
     """Describe one clip; a string says why it could not be read."""
     try:
-        return METHODS[method].features(_checked(entry))
+        return METHODS[method].features(track_clip(open_clip(entry.path, entry.frames), METHODS[method].needs_body))
     except ClipError as error:
         return str(error)
-
-
-def _checked(entry: Entry) -> Any:
-    track = track_clip(open_clip(entry.path, entry.frames))
-    track.check_length()
-    return track
 
 
 def build_database(

@@ -9,6 +9,8 @@ import numpy as np
 from recognizer.database import IRRELEVANT, Database
 from recognizer.neighbours import votes_of
 
+SHOWN = 5  # neighbours reported
+
 
 @dataclasses.dataclass(frozen=True)
 class Neighbour:
@@ -74,7 +76,9 @@ def decide(
     winner = str(labels[int(np.argmax(votes))])
     first = int(np.flatnonzero(database.labels[rows] == winner)[0])
     distance = float(distances[first])
-    neighbours = tuple(_neighbour(database, int(row), float(d)) for row, d in zip(rows, distances, strict=True))
+    neighbours = tuple(
+        _neighbour(database, int(row), float(d)) for row, d in zip(rows[:SHOWN], distances[:SHOWN], strict=True)
+    )
     if winner == IRRELEVANT:
         action = str(database.actions[rows[first]])
         reason = f"nearest is irrelevant motion ({action}) at {distance:.3g}"

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from recognizer import thesis
+from recognizer import body_features, thesis
+from recognizer.body_model import BodyModel
 from recognizer.database import Database
 from recognizer.errors import DatabaseError
 from recognizer.track import Track
@@ -23,9 +24,22 @@ class Method:
     names: tuple[str, ...]
     features: Callable[[Track], np.ndarray]
     model: Any
+    needs_body: bool
 
 
-METHODS = {thesis.METHOD: Method(thesis.METHOD, thesis.VERSION, thesis.NAMES, thesis.features, thesis.ThesisModel)}
+def _body(track: Track) -> np.ndarray:
+    grey = track.samples[0].grey
+    size = (grey.shape[1], grey.shape[0])
+    return body_features.vector(body_features.describe(list(track.steps), list(track.regions), track.body, size))
+
+
+METHODS = {
+    method.name: method
+    for method in (
+        Method(body_features.METHOD, body_features.VERSION, body_features.names(), _body, BodyModel, True),
+        Method(thesis.METHOD, thesis.VERSION, thesis.NAMES, thesis.features, thesis.ThesisModel, False),
+    )
+}
 
 
 def method_of(database: Database) -> Method:

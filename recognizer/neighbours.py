@@ -124,7 +124,8 @@ class NeighbourClassifier(ClassifierMixin, BaseEstimator):
 
     def predict(self, X: Any) -> np.ndarray:
         """Return the class with most votes of each query; a tie goes to the first in sorted order."""
-        return self.classes_[np.argmax(self.predict_proba(X), axis=1)]
+        shares = self.predict_proba(X)
+        return self.classes_[np.argmax(shares, axis=1)]
 
 
 def votes_of(distances: np.ndarray, targets: np.ndarray, n_classes: int, vote: str, power: float) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import time
 from collections.abc import Callable, Iterable
@@ -48,7 +49,7 @@ class Recognizer:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the database, with what was learned from it, atomically."""
-        self.database.save(path)
+        dataclasses.replace(self.database, arrays=self.model.arrays).save(path)
 
     @property
     def labels(self) -> list[str]:
@@ -57,7 +58,7 @@ class Recognizer:
 
     def stream(self, fps: float, source: str = "stream", first_index: int = 0) -> RecognizerStream:
         """Start a clip whose frames will be pushed one by one."""
-        return RecognizerStream(self, Track(fps, first_index, source))
+        return RecognizerStream(self, Track(fps, first_index, source, self.method.needs_body))
 
     def recognize(
         self, clip: Clip | str | os.PathLike[str], among: Iterable[str] | None = None, progress: Progress | None = None
@@ -125,21 +126,21 @@ class RecognizerStream:
             ClipError: too few frames.
         """
         begun = time.perf_counter()
-        self.track.check_length()
+        self.track.end()
         vector = self.recognizer.method.features(self.track)
         decision = self.recognizer.decide(vector, among)
         samples = self.track.samples
         height, width = samples[0].grey.shape
         return Recognition.of(
             decision,
-            amplitude=amplitude(self.track.regions, (width, height)),
+            amplitude=amplitude(list(self.track.regions), (width, height)),
             start=samples[0].time,
             end=samples[-1].time,
             method=self.recognizer.database.method,
             source=self.track.source,
             warnings=warnings,
             timings={**(timings or {}), "answer": time.perf_counter() - begun},
-            evidence=Evidence(samples, self.track.regions),
+            evidence=Evidence(samples, list(self.track.regions)),
         )
 
 

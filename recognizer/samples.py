@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 
 RATE = 10.0  # samples per second: the slowest camera we promise to understand
-KEPT_SECONDS = 20.0  # the ring's length; memory does not grow beyond it
-IMAGE_SIDE = 320  # px, longer side of the pictures kept for key frames and evidence
+KEPT_SECONDS = 15.0  # the ring's length; memory does not grow beyond it
+IMAGE_SIDE = 480  # px, longer side of the pictures kept for key frames and evidence
 FLOW_SIDE = 96  # px, longer side of the grey image on which the flow is computed
 
 
@@ -21,7 +21,7 @@ class Sample:
     Attributes:
         index: frame number in the source.
         time: seconds from the first frame.
-        image: (h, w, 3) uint8 BGR, longer side at most 320 px.
+        image: (h, w, 3) uint8 BGR, longer side at most 480 px.
         grey: (h, w) uint8, the same in grey.
         small: (h', w') float32 grey, longer side 96 px.
     """

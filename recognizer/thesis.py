@@ -43,7 +43,7 @@ def features(track: Track) -> np.ndarray:
     """Return the thesis's vector of a clip, (75,): amplitude, size of the motion, small and large vectors."""
     greys = [sample.grey for sample in track.samples]
     height, width = greys[0].shape
-    routed = amplitude(track.regions, (width, height), "first_to_last")
+    routed = amplitude(list(track.regions), (width, height), "first_to_last")
     i, j = small_pair(greys)
     difference = difference_image(greys[i], greys[j])
     states = equal_motion_frames(greys, STATES + 1)
@@ -114,26 +114,29 @@ class ThesisModel:
         """Return "small" or "large" for a vector by its centroid transition."""
         return "large" if vector[0 if self.rule == "first_to_last" else 1] > self.route_ else "small"
 
-    def decide(self, vector: np.ndarray, among: set[str] | None = None) -> Decision:
-        """Route a vector and name it; ``among`` narrows the labels."""
-        families = [self.route(vector)]
-        rows = self._rows(families[0], among)
+    def decide(self, vector: np.ndarray, among: set[str] | None = None, k: int | None = None) -> Decision:
+        """Route a vector and name it; ``among`` narrows the labels, ``k`` overrides the number of votes."""
+        family = self.route(vector)
+        rows = self._rows(family, among)
         if len(rows) == 0:  # nothing of that family is allowed in this context
-            families = ["large" if families[0] == "small" else "small"]
-            rows = self._rows(families[0], among)
-        columns = _SMALL if families[0] == "small" else _LARGE
-        if families[0] == "small" and vector[2] < self.coaxial_:
-            label = "yes" if (vector[2] < self.yes_no_) == self.yes_below_no_ else "no"
-            coaxial = rows[self.database.labels[rows] == label]
-            rows = coaxial if len(coaxial) else rows
-        elif families[0] == "small":
-            other = rows[~np.isin(self.database.labels[rows], COAXIAL)]
-            rows = other if len(other) else rows
-        knn = NeighbourClassifier(self.n_neighbors).fit(
-            self.database.features[rows][:, columns], self.database.labels[rows]
-        )
-        distances, order = knn.kneighbors(vector[None, columns], min(len(rows), max(5, self.n_neighbors)))
-        return decide(self.database, rows[order[0]], distances[0], self.n_neighbors, self.limits_[families[0]])
+            family = "large" if family == "small" else "small"
+            rows = self._rows(family, among)
+        if family == "small":
+            rows = self._coaxial_rows(rows, float(vector[2]))
+        columns = _SMALL if family == "small" else _LARGE
+        k = k or self.n_neighbors
+        knn = NeighbourClassifier(k).fit(self.database.features[rows][:, columns], self.database.labels[rows])
+        distances, order = knn.kneighbors(vector[None, columns], max(5, k))
+        return decide(self.database, rows[order[0]], distances[0], k, self.limits_[family])
+
+    def _coaxial_rows(self, rows: np.ndarray, size: float) -> np.ndarray:
+        """The size rules of ch. 2 (1-5): little motion is yes or no, again by its size; the rest is neither."""
+        labels = self.database.labels[rows]
+        if size < self.coaxial_:
+            keep = labels == ("yes" if (size < self.yes_no_) == self.yes_below_no_ else "no")
+        else:
+            keep = ~np.isin(labels, COAXIAL)
+        return rows[keep] if keep.any() else rows
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:

@@ -2,30 +2,48 @@
 
 from __future__ import annotations
 
+from collections import deque
+
 import numpy as np
 
-from recognizer.amplitude import MovingRegions, moving_mask, moving_regions
+from recognizer.amplitude import MovingRegions, moving_regions
+from recognizer.body import BodyFinder
 from recognizer.clip import Clip
 from recognizer.errors import ClipError
+from recognizer.finder import Body
 from recognizer.flow import horn_schunck
 from recognizer.samples import Sample, Sampler
+from recognizer.window import Step, Windows
 
 MIN_SAMPLES = 6  # six key frames make the five states of a large gesture
 FLOW_ITERATIONS = 30
 ALPHA = 8.0
+CATCH_UP = 3  # samples worked off per new one, once the body is found
 
 
 class Track:
-    """Samples, flow and moving regions of a clip, frame by frame.
+    """Samples, flow, moving regions and the person's window of a clip, frame by frame.
+
+    Args:
+        fps: frames per second.
+        first_index: number of the first frame in its source.
+        source: name for messages.
+        find_body: follow the person's window as well; the thesis's method does without.
 
     Attributes:
-        regions: moving regions of each kept sample; none for the first.
+        regions: moving regions of each kept sample but the first of the clip.
+        steps: what the person's window shows; see :meth:`end`.
     """
 
-    def __init__(self, fps: float, first_index: int = 0, source: str = "stream") -> None:
+    def __init__(self, fps: float, first_index: int = 0, source: str = "stream", find_body: bool = True) -> None:
         self.source = source
         self.sampler = Sampler(fps, first_index)
-        self.regions: list[MovingRegions] = []
+        kept = self.sampler.samples.maxlen
+        self.regions: deque[MovingRegions] = deque(maxlen=kept)
+        self.steps: deque[Step] = deque(maxlen=kept)
+        self._waiting: deque[Sample] = deque(maxlen=kept)
+        self._finder = BodyFinder() if find_body else None
+        self._windows: Windows | None = None
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
 
@@ -34,34 +52,65 @@ class Track:
         """The samples kept, in order."""
         return list(self.sampler.samples)
 
+    @property
+    def body(self) -> Body:
+        """Place and size of the person [px of the samples' pictures]; decided now if it was not yet."""
+        assert self._finder is not None
+        return self._finder.decide()
+
     def push(self, frame: np.ndarray) -> None:
-        """Take one frame, (h, w, 3) uint8 BGR, all of one size."""
+        """Take one frame, (h, w, 3) uint8 BGR, all of one size.
+
+        Raises:
+            ClipError: the frame has another size than those before.
+        """
         sample = self.sampler.push(frame)
         if sample is None:
             return
         before, self._before = self._before, sample
-        if before is None:
-            return
-        if before.small.shape != sample.small.shape:
-            raise ClipError(f"{self.source} changes its frame size on the way; convert it to one size")
-        self._flow = horn_schunck(before.small, sample.small, ALPHA, FLOW_ITERATIONS, self._flow)
-        mask = moving_mask(*self._flow, sample.time - before.time)
-        self.regions.append(moving_regions(mask, sample.time))
-        del self.regions[: -len(self.sampler.samples)]
+        if before is not None:
+            if before.grey.shape != sample.grey.shape:
+                raise ClipError(f"{self.source} changes its frame size on the way; convert it to one size")
+            self._flow = horn_schunck(before.small, sample.small, ALPHA, FLOW_ITERATIONS, self._flow)
+            self.regions.append(moving_regions(*self._flow, sample.time, sample.time - before.time))
+        if self._finder is not None:
+            self._waiting.append(sample)
+            self._finder.observe(sample)
+            if self._finder.body is not None:
+                self._work_off(CATCH_UP)
 
-    def check_length(self) -> None:
-        """Raise ClipError when there are too few samples for a gesture."""
+    def _work_off(self, count: int) -> None:
+        if self._windows is None:
+            self._windows = Windows(self.body)
+        for _ in range(min(count, len(self._waiting))):
+            step = self._windows.push(self._waiting.popleft())
+            if step is not None:
+                self.steps.append(step)
+
+    def end(self) -> None:
+        """Finish what is pending; call it after the last frame.
+
+        Raises:
+            ClipError: too few frames for a gesture.
+        """
         n = len(self.sampler.samples)
         if n < MIN_SAMPLES:
             need = MIN_SAMPLES / min(self.sampler.fps, 10.0)
             raise ClipError(
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
+        if self._finder is not None:
+            self._work_off(len(self._waiting))
 
 
-def track_clip(clip: Clip) -> Track:
-    """Run all frames of a clip through a :class:`Track`."""
-    track = Track(clip.fps, clip.frames[0], clip.source)
+def track_clip(clip: Clip, find_body: bool = True) -> Track:
+    """Run all frames of a clip through a :class:`Track`.
+
+    Raises:
+        ClipError: the clip cannot be read or is too short.
+    """
+    track = Track(clip.fps, clip.frames[0], clip.source, find_body)
     for frame in clip:
         track.push(frame)
+    track.end()
     return track

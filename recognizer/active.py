@@ -1,0 +1,84 @@
+"""The part of a clip in which the person moves, cut into phases of equal duration."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from recognizer.window import HEAD, WHOLE, Step
+
+PHASES = 5  # as many as the thesis's consecutive states
+STILL = 0.35  # head heights per second: slower is sway or noise
+TRIMMED = (0.01, 0.985)  # share of all motion that begins and ends the active part
+
+
+@dataclasses.dataclass(frozen=True)
+class Active:
+    """The steps of a clip as arrays, with its active part.
+
+    Attributes:
+        u, v: (n, h, w) velocity [head heights per second] in the window WHOLE, 0 where slower than STILL.
+        speed: (n, h, w) their magnitude.
+        head: (n, 2, h', w') velocity in the window HEAD, not thresholded.
+        pictures: (n, h, w) windows with even contrast.
+        seconds: (n,) duration of each step.
+        first, last: steps first … last-1 are active.
+        phases: (5, n) seconds that each step contributes to each phase.
+        moved: mean motion of the whole clip [head heights].
+    """
+
+    u: np.ndarray
+    v: np.ndarray
+    speed: np.ndarray
+    head: np.ndarray
+    pictures: np.ndarray
+    seconds: np.ndarray
+    first: int
+    last: int
+    phases: np.ndarray
+    moved: float
+
+    @property
+    def period(self) -> float:
+        """Typical duration of a step [s]."""
+        return float(np.median(self.seconds))
+
+
+def active_part(steps: list[Step]) -> Active:
+    """Stack steps and find the active part: where all but the first and last per cent of the motion happens."""
+    flow = np.array([step.flow for step in steps])
+    seconds = np.array([step.seconds for step in steps], np.float32)
+    speed = np.hypot(flow[:, 0], flow[:, 1])
+    moving = speed > STILL
+    speed = np.where(moving, speed, 0)
+    moved = speed.mean(axis=(1, 2)) * seconds
+    total = float(moved.sum())
+    along = np.cumsum(moved) / (total + 1e-6)
+    n = len(steps)
+    last = min(int(np.searchsorted(along, TRIMMED[1])) + 1, n)
+    first = min(int(np.searchsorted(along, TRIMMED[0])), last - 1)
+    return Active(
+        np.where(moving, flow[:, 0], 0),
+        np.where(moving, flow[:, 1], 0),
+        speed,
+        np.array([step.head_flow for step in steps]),
+        np.array([step.picture for step in steps]),
+        seconds,
+        first,
+        last,
+        _phases(first, last, n) * seconds,
+        total,
+    )
+
+
+def _phases(first: int, last: int, n: int) -> np.ndarray:
+    """Share of each step in each phase, (5, n)."""
+    edges = np.linspace(first, last, PHASES + 1)
+    step = np.arange(n)
+    overlap = np.minimum(step + 1, edges[1:, None]) - np.maximum(step, edges[:-1, None])
+    return overlap.clip(0, 1).astype(np.float32)
+
+
+GRID_X, GRID_Y = WHOLE.grid()
+HEAD_X, HEAD_Y = HEAD.grid()

@@ -1,0 +1,193 @@
+"""Motion described relative to the body: where, which way, in what order, how often.
+
+The default method. All lengths are head heights from the head's centre, all times seconds; five phases of the
+active part stand for the thesis's five consecutive states (ch. 2 (2)), with flow in place of difference images.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from recognizer.active import GRID_X, GRID_Y, HEAD_X, HEAD_Y, PHASES, Active, active_part
+from recognizer.amplitude import MovingRegions
+from recognizer.finder import Body
+from recognizer.window import Step
+
+METHOD = "body"
+VERSION = 1
+ROWS, COLUMNS = 8, 10  # cells of one head height over the window
+BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
+CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
+SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
+_FFT = 64
+Item = tuple[str, np.ndarray]
+
+
+def cell_means(maps: np.ndarray) -> np.ndarray:
+    """Mean over each cell of maps (…, 64, 80): (…, 8, 10)."""
+    *lead, height, width = maps.shape
+    return maps.reshape(*lead, ROWS, height // ROWS, COLUMNS, width // COLUMNS).mean(axis=(-3, -1))
+
+
+def describe(steps: list[Step], regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> list[Item]:
+    """Return named groups of features of one clip.
+
+    Args:
+        steps: from :class:`recognizer.window.Windows`.
+        regions: moving regions in the whole image.
+        body: place and size of the person [px of an image of ``size``].
+        size: width and height of that image.
+    """
+    active = active_part(steps)
+    return [
+        *_flow_maps(active),
+        *_changes(active),
+        *_rhythm(active),
+        *_paths(active),
+        *_circulation(active),
+        *_head(active),
+        *_whole_image(regions, body, size),
+        ("moved", np.array([math.log1p(active.moved), math.log1p(active.speed.max(axis=0).mean())])),
+        ("active_seconds", np.array([math.log((active.last - active.first) * active.period + 0.2)])),
+    ]
+
+
+def _flow_maps(active: Active) -> Iterator[Item]:
+    """Motion to the right, left, down and up: on coarse cells in each phase, on fine cells over the clip."""
+    ways = np.stack([np.maximum(f, 0) for f in (active.u, -active.u, active.v, -active.v)], axis=1)
+    fine = np.einsum("pt,tdyx->pdyx", active.phases, cell_means(ways))
+    coarse = fine.reshape(PHASES, 4, ROWS // 2, 2, COLUMNS // 2, 2).mean(axis=(3, 5))
+    yield "flow_phase", np.sqrt(coarse / (fine.sum() + 0.5))
+    yield "flow", np.sqrt(fine.sum(axis=0))
+
+
+def _changes(active: Active) -> Iterator[Item]:
+    """Share of each cell that changed between moments of the active part: the body's pose, held or not."""
+    a, b = active.first, active.last - 1
+    middle, early, late = (a + b) // 2, (3 * a + b) // 4, (a + 3 * b) // 4
+    for name, i, j in (
+        ("half", a, middle),
+        ("end", a, b),
+        ("second", middle, b),
+        ("early", a, early),
+        ("late", a, late),
+    ):
+        changed = np.abs(active.pictures[i] - active.pictures[j]) > CHANGED
+        yield f"changed_{name}", cell_means(changed.astype(np.float32))
+
+
+def _signal(values: np.ndarray, period: float) -> list[float]:
+    """Shares of four frequency bands, number of turns, amount and net direction of a velocity signal (n,)."""
+    spectrum = np.abs(np.fft.rfft(values * np.hanning(len(values) + 2)[1:-1], _FFT)) ** 2
+    frequency = np.fft.rfftfreq(_FFT, period)
+    total = float(spectrum[1:].sum()) + 1e-4
+    shares = [float(spectrum[(frequency >= low) & (frequency < high)].sum()) / total for low, high in BANDS]
+    strong = values[np.abs(values) > 0.25 * np.abs(values).max() + 1e-6]
+    turns = int((np.diff(np.sign(strong)) != 0).sum()) if len(strong) > 1 else 0
+    amount = float(np.abs(values).sum())
+    return [*shares, math.sqrt(turns), math.log1p(0.1 * amount), float(values.sum()) / (amount + 0.1)]
+
+
+_REGIONS = {
+    "right_side": (GRID_X < -0.6) & (GRID_Y < 2.5),
+    "left_side": (GRID_X > 0.6) & (GRID_Y < 2.5),
+    "face": (np.abs(GRID_X) < 0.7) & (np.abs(GRID_Y) < 0.7),
+    "all": np.ones_like(GRID_X, bool),
+}
+
+
+def _rhythm(active: Active) -> Iterator[Item]:
+    """How often motion turns round, and at what frequency, on each side, at the face, and overall."""
+    part = slice(active.first, active.last)
+    for name, region in _REGIONS.items():
+        for axis, flow in (("x", active.u), ("y", active.v)):
+            values = flow[part].reshape(active.last - active.first, -1) @ region.ravel().astype(np.float32)
+            yield f"rhythm_{name}_{axis}", np.array(_signal(values / 64, active.period))
+
+
+def _paths(active: Active) -> Iterator[Item]:
+    """Centre, spread and amount of motion in each phase: everywhere, on each side of the body's axis."""
+    x, y = GRID_X.ravel(), GRID_Y.ravel()
+    for name, side in (("all", np.ones_like(GRID_X)), ("right", GRID_X < 0), ("left", GRID_X >= 0)):
+        weight = active.phases @ (active.speed * side).reshape(len(active.speed), -1)
+        total = weight.sum(axis=1) + 2.0
+        cx, cy = weight @ x / total, weight @ y / total
+        sx = np.sqrt(np.maximum(weight @ (x * x) / total - cx * cx, 0))
+        sy = np.sqrt(np.maximum(weight @ (y * y) / total - cy * cy, 0))
+        values = (cx, cy, sx, sy, np.log1p(total / 64), np.diff(cx), np.diff(cy))
+        yield f"path_{name}", np.concatenate(values)
+
+
+def _circulation(active: Active) -> Iterator[Item]:
+    """Sense of rotation about each shoulder in each phase and in all; positive is clockwise to the camera."""
+    for name, shoulder in zip(("right", "left"), SHOULDERS, strict=True):
+        rx, ry = GRID_X - shoulder, GRID_Y - 1.4
+        arm = (rx * rx + ry * ry < 16) & (GRID_X * np.sign(shoulder) > -0.3)
+        n = len(active.u)
+        turning = active.v.reshape(n, -1) @ (rx * arm).ravel() - active.u.reshape(n, -1) @ (ry * arm).ravel()
+        phases = active.phases @ (turning / 64)
+        values = np.append(phases, phases.sum())
+        yield f"circulation_{name}", np.sign(values) * np.sqrt(np.abs(values))
+
+
+def _head(active: Active) -> Iterator[Item]:
+    """The head from near: nodding and shaking, as rhythm and as a map of 3×3 cells."""
+    part = active.head[active.first : active.last]
+    seconds = active.seconds[active.first : active.last]
+    face = ((HEAD_X / 0.38) ** 2 + (HEAD_Y / 0.5) ** 2 < 1).astype(np.float32).ravel()
+    flat = part.reshape(len(part), 2, -1)
+    mean = flat @ (face / face.sum())
+    amount = (np.abs(flat) @ (face / face.sum()) * seconds[:, None]).sum(axis=0)
+    for axis in (0, 1):
+        yield f"head_rhythm_{'xy'[axis]}", np.array(_signal(4 * mean[:, axis], active.period))
+    swing = mean.std(axis=0)
+    yield "head_amount", np.log(np.concatenate([amount, swing]) + 0.02)
+    yield (
+        "head_axis",
+        np.array([math.log((amount[1] + 0.02) / (amount[0] + 0.02)), math.log((swing[1] + 0.02) / (swing[0] + 0.02))]),
+    )
+    cells = np.abs(part).reshape(len(part), 2, 3, 14, 3, 14).mean(axis=(3, 5))
+    cells = np.einsum("t,tdyx->dyx", seconds, cells)
+    yield "head_cells", np.sqrt(cells / (cells.sum() + 0.1))
+
+
+def _whole_image(regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> Iterator[Item]:
+    """Path of all motion across the image, for who walks through it."""
+    head, aspect = body.head / size[0], size[0] / size[1]
+    rows = np.array([(*r.centroid, r.area, *r.velocity) for r in regions if r.area > 0.003]).reshape(-1, 5)
+    out = np.zeros(13)
+    if len(rows) >= 2:
+        x, y, area, u, v = rows.T
+        quarter = max(1, len(rows) // 4)
+        first, last = slice(0, quarter), slice(-quarter, None)
+        dx, dy = (np.average(c[last], weights=area[last]) - np.average(c[first], weights=area[first]) for c in (x, y))
+        wide, tall = np.quantile(x, 0.95) - np.quantile(x, 0.05), np.quantile(y, 0.95) - np.quantile(y, 0.05)
+        steady = float(np.corrcoef(x, np.arange(len(x)))[0, 1]) if x.std() > 1e-6 else 0.0
+        in_heads = [np.sign(dx) * min(5, abs(dx) / head / 2), min(5, wide / head / 2), min(5, tall / head / aspect / 2)]
+        net = float((u * area).sum() / ((np.abs(u) * area).sum() + 0.01))
+        mean_u, mean_v = np.average(u, weights=area), np.average(v, weights=area)
+        covered = min(4, area.mean() / (head * head * aspect) / 4)
+        out = np.array([dx, dy, wide, tall, *in_heads, math.sqrt(area.mean()), mean_u, mean_v, net, steady, covered])
+    yield "image_path", out
+
+
+def vector(items: list[Item]) -> np.ndarray:
+    """Concatenate named groups, (d,) float32."""
+    return np.concatenate([np.ravel(values) for _, values in items]).astype(np.float32)
+
+
+def _blank() -> list[Item]:
+    """Features of a clip in which nothing moves: their names and number."""
+    zero = np.zeros((2, 64, 80), np.float32)
+    steps = [Step(0.1 * i, 0.1, zero[0], zero, np.zeros((2, 42, 42), np.float32)) for i in range(1, 8)]
+    return describe(steps, [], Body(40, 40, 10, 0), (320, 240))
+
+
+def names() -> tuple[str, ...]:
+    """Name of every feature, in order."""
+    groups = ([f"{name}_{i}" for i in range(np.size(values))] for name, values in _blank())
+    return tuple(itertools.chain.from_iterable(groups))

@@ -1,0 +1,131 @@
+"""How well does a database recognise persons it has never seen? (thesis app. 6; S19)"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from sklearn.model_selection import LeaveOneGroupOut, StratifiedKFold
+
+from recognizer.database import IRRELEVANT, Database
+from recognizer.errors import DatabaseError
+from recognizer.methods import method_of
+
+PROTOCOLS = ("loo-person", "k-fold")
+KS = (1, 3, 5, 7, 9)
+
+
+@dataclasses.dataclass(frozen=True)
+class Evaluation:
+    """Every clip of a database, answered by a model that was not shown it (nor, by loo-person, its person).
+
+    Attributes:
+        method, protocol: what was evaluated, and how.
+        labels: (n,) true labels, "irrelevant" among them.
+        families: (n,) true families.
+        nearest: (n,) best gesture, rejected or not; "irrelevant" when irrelevant motion was nearest.
+        rejected: (n,) bool.
+        persons, sources, actions: (n,) of each clip.
+        by_k: k -> share of gestures named rightly when k neighbours vote.
+    """
+
+    method: str
+    protocol: str
+    labels: np.ndarray
+    families: np.ndarray
+    nearest: np.ndarray
+    routed: np.ndarray
+    rejected: np.ndarray
+    persons: np.ndarray
+    sources: np.ndarray
+    actions: np.ndarray
+    by_k: dict[int, float]
+
+    @property
+    def gestures(self) -> np.ndarray:
+        """(n,) bool: clips of the vocabulary."""
+        return self.labels != IRRELEVANT
+
+    def score(self, mask: np.ndarray | None = None) -> float:
+        """Share of the gestures (among ``mask``) that are named rightly, before rejection; NaN for none."""
+        chosen = self.gestures if mask is None else self.gestures & mask
+        return float(np.mean(self.nearest[chosen] == self.labels[chosen])) if chosen.any() else float("nan")
+
+    def summary(self) -> dict[str, float]:
+        """The rows of the table of results, as shares."""
+        known = self.gestures
+        out = {f"{family} amplitude": self.score(self.families == family) for family in ("small", "large")}
+        out |= {label: self.score(self.labels == label) for label in ("yes", "no")}
+        out["routing"] = float(np.mean(self.routed[known] == self.families[known]))
+        out["false rejection"] = float(np.mean(self.rejected[known]))
+        if (~known).any():
+            out["irrelevant rejected"] = float(np.mean(self.rejected[~known]))
+        return out
+
+    def confusion(self, family: str) -> tuple[list[str], np.ndarray]:
+        """Return the labels of a family and the counts, rows true, columns answered (others in the last)."""
+        labels = sorted(set(self.labels[self.families == family].tolist()))
+        counts = np.zeros((len(labels), len(labels) + 1), int)
+        for true, answer in zip(self.labels, self.nearest, strict=True):
+            if true in labels:
+                counts[labels.index(true), labels.index(answer) if answer in labels else len(labels)] += 1
+        return labels, counts
+
+
+def folds(database: Database, protocol: str, k: int = 10) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield row indices of training and test for each fold.
+
+    Raises:
+        DatabaseError: unknown protocol, or too few persons or clips for it.
+    """
+    if protocol == "loo-person":
+        if len(np.unique(database.persons)) < 2:
+            raise DatabaseError("leave-one-person-out needs clips of two persons at least; film or import more")
+        yield from LeaveOneGroupOut().split(database.features, database.labels, database.persons)
+    elif protocol == "k-fold":
+        fewest = int(np.unique(database.labels, return_counts=True)[1].min())
+        if fewest < 2:
+            raise DatabaseError("k-fold needs two clips of every gesture at least; film or import more")
+        splitter = StratifiedKFold(min(k, fewest), shuffle=True, random_state=0)
+        yield from splitter.split(database.features, database.labels)
+    else:
+        raise DatabaseError(f"unknown protocol '{protocol}'; choose {' or '.join(PROTOCOLS)}")
+
+
+def evaluate(
+    database: Database, protocol: str = "loo-person", progress: Callable[[int, int], None] | None = None
+) -> Evaluation:
+    """Answer every clip by a model learned from the other folds, limits and thresholds included."""
+    model_class: Any = method_of(database).model
+    n = len(database)
+    nearest, routed = np.full(n, IRRELEVANT, dtype=object), np.full(n, "small", dtype=object)
+    rejected = np.zeros(n, bool)
+    right = {k: np.zeros(n, bool) for k in KS}
+    splits = list(folds(database, protocol))
+    for number, (train, test) in enumerate(splits, 1):
+        model = model_class().fit(model_class.trainable(database.take(train)))
+        for row in test:
+            vector = database.features[row]
+            decision = model.decide(vector)
+            nearest[row], routed[row] = decision.nearest or IRRELEVANT, model.route(vector)
+            rejected[row] = decision.rejected
+            for k in KS:
+                right[k][row] = model.decide(vector, k=k).nearest == database.labels[row]
+        if progress is not None:
+            progress(number, len(splits))
+    known = database.labels != IRRELEVANT
+    return Evaluation(
+        database.method,
+        protocol,
+        database.labels,
+        database.families,
+        nearest.astype(str),
+        routed.astype(str),
+        rejected,
+        database.persons,
+        database.sources,
+        database.actions,
+        {k: float(np.mean(right[k][known])) for k in KS},
+    )

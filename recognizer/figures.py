@@ -1,0 +1,112 @@
+"""The thesis's figures of results (S21): score per gesture, against k, misclassified, confusion; two methods beside."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+from recognizer.database import IRRELEVANT
+from recognizer.evaluation import Evaluation
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+
+COLOURS = {"thesis": "#8a8a8a", "body": "#1f6fb4"}
+FAMILIES = ("small", "large")
+
+
+def draw_figures(evaluations: Sequence[Evaluation], folder: Path) -> list[Path]:
+    """Write all figures as PNG and return their paths.
+
+    Args:
+        evaluations: of the same data set by one or more methods.
+        folder: made if it is not there.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    made = []
+    for name, painter in (
+        ("score_per_gesture", _scores),
+        ("score_against_k", _against_k),
+        ("misclassified", _misclassified),
+    ):
+        figure, axes = plt.subplots(1, 1 if name == "score_against_k" else 2, figsize=(12, 5), squeeze=False)
+        painter(list(axes[0]), evaluations)
+        made.append(_save(figure, folder / f"{name}.png"))
+    for evaluation in evaluations:
+        figure, axes = plt.subplots(1, 2, figsize=(15, 7))
+        for axis, family in zip(axes, FAMILIES, strict=True):
+            _confusion(axis, evaluation, family)
+        made.append(_save(figure, folder / f"confusion_{evaluation.method}.png"))
+    return made
+
+
+def _save(figure: plt.Figure, path: Path) -> Path:
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+    return path
+
+
+def _scores(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
+    for axis, family in zip(axes, FAMILIES, strict=True):
+        labels = sorted({label for e in evaluations for label in e.labels[e.families == family].tolist()})
+        width = 0.8 / len(evaluations)
+        for i, e in enumerate(evaluations):
+            scores = [e.score(e.labels == label) for label in labels]
+            mean = np.mean(scores) if scores else 0.0
+            places = np.arange(len(labels)) + (i - (len(evaluations) - 1) / 2) * width
+            axis.bar(places, scores, width, color=COLOURS[e.method], label=f"{e.method}: mean {mean:.1%}")
+        axis.set(
+            title=f"{family} amplitude: score per gesture, {evaluations[0].protocol}", ylim=(0, 1.02), ylabel="score"
+        )
+        axis.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
+        axis.legend(loc="lower right")
+
+
+def _against_k(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
+    for e in evaluations:
+        axes[0].plot(list(e.by_k), list(e.by_k.values()), "o-", color=COLOURS[e.method], label=e.method)
+    axes[0].set(title="score against k", xlabel="k neighbours", ylabel="score of all gestures", ylim=(0, 1.02))
+    axes[0].grid(alpha=0.3)
+    axes[0].legend()
+
+
+def _misclassified(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
+    """How often each label is answered; the red line is how often it ought to be."""
+    for axis, family in zip(axes, FAMILIES, strict=True):
+        labels = sorted({label for e in evaluations for label in e.labels[e.families == family].tolist()})
+        for i, e in enumerate(evaluations):
+            answered = [np.mean(e.nearest[e.gestures] == label) for label in labels]
+            axis.plot(np.arange(len(labels)) + 0.04 * i, answered, "o", color=COLOURS[e.method], label=e.method)
+        ideal = [np.mean(evaluations[0].labels[evaluations[0].gestures] == label) for label in labels]
+        axis.plot(range(len(labels)), ideal, "r-", label="ideal")
+        axis.set(title=f"{family} amplitude: share of all answers", ylim=(0, None), ylabel="share")
+        axis.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
+        axis.legend()
+
+
+def _confusion(axis: Axes, evaluation: Evaluation, family: str) -> None:
+    labels, counts = evaluation.confusion(family)
+    if not labels:
+        axis.set_axis_off()
+        return
+    shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
+    axis.imshow(shares, cmap="Blues", vmin=0, vmax=1)
+    for (row, column), count in np.ndenumerate(counts):
+        if count:
+            axis.text(
+                column,
+                row,
+                str(count),
+                ha="center",
+                va="center",
+                color="white" if shares[row, column] > 0.5 else "black",
+            )
+    columns = [*labels, f"other or {IRRELEVANT}"]
+    axis.set_xticks(range(len(columns)), columns, rotation=40, ha="right")
+    axis.set_yticks(range(len(labels)), labels)
+    axis.set(title=f"{evaluation.method}, {family} amplitude", xlabel="answered", ylabel="true")

@@ -1,0 +1,136 @@
+"""Where is the person? A head-and-shoulders template over a pyramid of gradient orientations.
+
+The outline of a head on shoulders is what people, clothes and rooms have in common. It is learned once, linearly
+(:mod:`recognizer.finder_training`), and is shipped as a small table of weights; everything the recogniser measures
+is then placed and scaled by the head (Dalal and Triggs, CVPR 2005, for the cells; the template is our own).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from importlib.resources import files
+
+import cv2
+import numpy as np
+
+HEAD = 6.0  # px: height of a head in the pyramid level where the template finds it
+CELL = 2  # px
+BINS = 6  # unsigned gradient orientations
+CHANNELS = BINS + 1
+WIDE, TALL = 13, 13  # cells of the template, 4.3 heads each way
+HEAD_AT = (6.0, 4.0)  # column and row of the head's centre in the template [cells]
+SMALLEST, LARGEST = 0.037, 0.5  # head heights searched, in image heights: a third of the image to close-up
+STEP = 2 ** (1 / 4)  # ratio of neighbouring levels
+_WEIGHTS = "head_shoulders.npz"
+
+
+@dataclasses.dataclass(frozen=True)
+class Body:
+    """Place and size of a person in the image.
+
+    Attributes:
+        x, y: centre of the head [px].
+        head: height of the head, chin to crown [px].
+        score: how sure; above 0 is more likely a person than not.
+    """
+
+    x: float
+    y: float
+    head: float
+    score: float
+
+
+def cells(grey: np.ndarray) -> np.ndarray:
+    """Orientation cells of a grey image: (rows, columns, 7) float32, contrast normalised.
+
+    Six unsigned orientations and the gradient's magnitude, each the mean of a cell's pixels.
+    """
+    image = grey.astype(np.float32)
+    gx = cv2.Sobel(image, cv2.CV_32F, 1, 0, ksize=1, borderType=cv2.BORDER_REPLICATE)
+    gy = cv2.Sobel(image, cv2.CV_32F, 0, 1, ksize=1, borderType=cv2.BORDER_REPLICATE)
+    energy = gx * gx + gy * gy
+    scale = 1.0 / np.sqrt(cv2.blur(energy, (25, 25)) + 30.0)
+    magnitude = np.sqrt(energy) * scale
+    np.minimum(magnitude, 3.0, out=magnitude)
+    angle = cv2.phase(gx, gy) * (BINS / np.pi)
+    height, width = grey.shape
+    rows, columns = height // CELL, width // CELL
+    planes = []
+    for b in range(BINS):
+        near = np.abs((angle - b + BINS / 2) % BINS - BINS / 2)
+        planes.append(magnitude * np.maximum(0.0, 1.0 - near))
+    planes.append(magnitude)
+    size = (columns, rows)
+    return np.dstack(
+        [cv2.resize(p[: rows * CELL, : columns * CELL], size, interpolation=cv2.INTER_AREA) for p in planes]
+    )
+
+
+def levels(height: int, width: int) -> list[float]:
+    """Head heights [px] of the pyramid levels of an image."""
+    count = int(np.floor(np.log(LARGEST / SMALLEST) / np.log(STEP))) + 1
+    return [height * SMALLEST * STEP**i for i in range(count)]
+
+
+def pyramid(grey: np.ndarray) -> list[tuple[float, np.ndarray]]:
+    """Return (head height [px of ``grey``], cells) of each level; the border is padded by half a template."""
+    height, width = grey.shape
+    out = []
+    for head in levels(height, width):
+        scale = HEAD / head
+        size = (max(8, round(width * scale)), max(8, round(height * scale)))
+        smaller = cv2.resize(grey, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
+        out.append((head, cells(smaller)))
+    return out
+
+
+@functools.cache
+def _stored() -> dict[str, np.ndarray]:
+    with files("recognizer").joinpath(_WEIGHTS).open("rb") as file, np.load(file, allow_pickle=False) as stored:
+        return {
+            name: stored[name].astype(np.float64 if name.startswith("rank") else np.float32) for name in stored.files
+        }
+
+
+def template() -> tuple[np.ndarray, float]:
+    """Return the shipped template, (13, 13, 7) weights and the offset."""
+    return _stored()["weights"], float(_stored()["offset"])
+
+
+def ranking() -> tuple[np.ndarray, float]:
+    """Return the shipped weights (15,) that choose among candidates, and their offset."""
+    return _stored()["rank_weights"], float(_stored()["rank_offset"])
+
+
+def score_maps(grey: np.ndarray, weights: np.ndarray, offset: float) -> list[tuple[float, np.ndarray]]:
+    """Return (head height [px], score of each cell as the head's centre) for every level."""
+    out = []
+    for head, level in pyramid(grey):
+        total = np.full(level.shape[:2], offset, np.float32)
+        for c in range(CHANNELS):
+            # Beyond the image nothing is known: constant zero borders.
+            anchor = (int(HEAD_AT[0]), int(HEAD_AT[1]))
+            plane = np.ascontiguousarray(level[:, :, c])
+            total += cv2.filter2D(plane, cv2.CV_32F, weights[:, :, c], anchor=anchor, borderType=cv2.BORDER_CONSTANT)
+        out.append((head, total))
+    return out
+
+
+def best_bodies(maps: list[tuple[float, np.ndarray]], size: tuple[int, int], count: int = 8) -> list[Body]:
+    """Pick the highest, mutually distant scores; ``size`` is (width, height) of the image."""
+    found: list[Body] = []
+    for head, scores in maps:
+        peaks = (scores >= cv2.dilate(scores, np.ones((3, 3), np.uint8))) & (scores > np.quantile(scores, 0.9))
+        rows, columns = np.nonzero(peaks)
+        fx, fy = size[0] / scores.shape[1], size[1] / scores.shape[0]
+        found += [
+            Body((c + 0.5) * fx, (r + 0.5) * fy, head, float(scores[r, c])) for r, c in zip(rows, columns, strict=True)
+        ]
+    kept: list[Body] = []
+    for body in sorted(found, key=lambda b: -b.score):
+        if len(kept) == count:
+            break
+        if all(np.hypot(body.x - k.x, body.y - k.y) > 0.7 * max(body.head, k.head) for k in kept):
+            kept.append(body)
+    return kept

@@ -1,0 +1,137 @@
+"""The person in a window of his own size: flow in head heights per second, whatever the camera."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import cv2
+import numpy as np
+
+from recognizer.finder import Body
+from recognizer.flow import horn_schunck
+from recognizer.samples import Sample
+
+LEVELS, ITERATIONS, ALPHA = 3, 12, 6.0
+
+
+@dataclasses.dataclass(frozen=True)
+class View:
+    """A window around the head's centre, in head heights.
+
+    Attributes:
+        pixels: pixels of the window per head height.
+        left, right, top, bottom: its borders [head heights from the head's centre].
+    """
+
+    pixels: int
+    left: float
+    right: float
+    top: float
+    bottom: float
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height [px]."""
+        return round((self.right - self.left) * self.pixels), round((self.bottom - self.top) * self.pixels)
+
+    def grid(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return x and y of every pixel's centre [head heights], two (h, w) float32."""
+        width, height = self.size
+        x = (np.arange(width, dtype=np.float32) + 0.5) / self.pixels + self.left
+        y = (np.arange(height, dtype=np.float32) + 0.5) / self.pixels + self.top
+        columns, rows = np.meshgrid(x, y)
+        return columns, rows
+
+
+WHOLE = View(8, -5.0, 5.0, -3.25, 4.75)  # arms at full reach
+HEAD = View(24, -0.875, 0.875, -0.875, 0.875)  # fine enough to see a nod
+
+
+@dataclasses.dataclass(frozen=True)
+class Step:
+    """What one sample shows of the person since the sample before.
+
+    Attributes:
+        time: seconds.
+        seconds: since the sample before.
+        picture: (64, 80) float32, the window with its contrast evened out.
+        flow: (2, 64, 80) velocity right and down in the window WHOLE [head heights per second].
+        head_flow: (2, 42, 42) the same in the window HEAD.
+    """
+
+    time: float
+    seconds: float
+    picture: np.ndarray
+    flow: np.ndarray
+    head_flow: np.ndarray
+
+
+class Windows:
+    """Turns samples into steps, one by one, once the body is known."""
+
+    def __init__(self, body: Body) -> None:
+        self.body = body
+        self._before: tuple[float, np.ndarray, np.ndarray] | None = None
+
+    def push(self, sample: Sample) -> Step | None:
+        """Take the next sample; the first gives no step."""
+        whole = even_contrast(cut_window(sample.grey, self.body, WHOLE), WHOLE.pixels / 2)
+        head = even_contrast(cut_window(sample.grey, self.body, HEAD), HEAD.pixels / 4)
+        before, self._before = self._before, (sample.time, whole, head)
+        if before is None:
+            return None
+        seconds = sample.time - before[0]
+        flow = np.stack(coarse_to_fine(before[1], whole)) / np.float32(WHOLE.pixels * seconds)
+        head_flow = np.stack(coarse_to_fine(before[2], head)) / np.float32(HEAD.pixels * seconds)
+        return Step(sample.time, seconds, whole, flow, head_flow)
+
+
+def cut_window(grey: np.ndarray, body: Body, view: View) -> np.ndarray:
+    """Cut a window around the head out of a grey image, float32; beyond the border its edge is repeated."""
+    scale = body.head / view.pixels
+    height, width = grey.shape
+    fx = fy = 1.0
+    if scale > 1.5:  # shrink by area first, so that nothing is skipped
+        size = (max(1, round(width / scale)), max(1, round(height / scale)))
+        grey = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
+        fx, fy = size[0] / width, size[1] / height
+    x, y = (body.x + view.left * body.head) * fx, (body.y + view.top * body.head) * fy
+    matrix = np.array([[scale * fx, 0, x], [0, scale * fy, y]], np.float32)
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    return cv2.warpAffine(grey, matrix, view.size, flags=flags, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
+
+
+def even_contrast(window: np.ndarray, sigma: float) -> np.ndarray:
+    """Subtract the local mean and divide by the local deviation: light, shirts and exposure count less."""
+    detail = window - cv2.GaussianBlur(window, (0, 0), sigma)
+    deviation = np.sqrt(cv2.GaussianBlur(detail * detail, (0, 0), 1.5 * sigma))
+    return detail * (25.0 / (deviation + 6.0))
+
+
+def coarse_to_fine(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Horn-Schunck from a quarter of the size upwards, each level refining what the coarser one found [px].
+
+    A waving hand moves several pixels between samples, which one level alone cannot follow.
+    """
+    pairs = [(first, second)]
+    for _ in range(LEVELS - 1):
+        pairs.append((cv2.pyrDown(pairs[-1][0]), cv2.pyrDown(pairs[-1][1])))
+    u, v = horn_schunck(*pairs[-1], ALPHA, ITERATIONS)
+    for a, b in reversed(pairs[:-1]):
+        height, width = a.shape
+        u, v = cv2.resize(u, (width, height)) * 2, cv2.resize(v, (width, height)) * 2
+        columns, rows = _grid(width, height)
+        moved = cv2.remap(b, columns + u, rows + v, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        du, dv = horn_schunck(a, moved, ALPHA, ITERATIONS)
+        u, v = u + du, v + dv
+    return u, v
+
+
+_grids: dict[tuple[int, int], tuple[np.ndarray, np.ndarray]] = {}
+
+
+def _grid(width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
+    if (width, height) not in _grids:
+        columns, rows = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
+        _grids[width, height] = (columns, rows)
+    return _grids[width, height]
