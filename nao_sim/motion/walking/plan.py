@@ -76,7 +76,7 @@ def plan_walk(x: float, y: float, turn: float, settings: WalkSettings | None = N
     missing[0] = 0.0  # the robot stands still at the start
     com[:, :2] += follow(model, missing)[0][:, 0]
     targets, torso, torso_heading = body.carry(feet, com, ahead)
-    times = np.arange(len(feet)) * CONTROL_PERIOD
+    times = np.arange(len(feet), dtype=np.float64) * CONTROL_PERIOD
     return WalkPlan(
         times, feet, support, swing, reference, com, torso, torso_heading, targets, body.pitch, tuple(steps)
     )
