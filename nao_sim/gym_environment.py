@@ -23,6 +23,18 @@ from nao_sim.environment import track
 
 ID = "NaoTrackGesture-v0"
 
+# Gymnasium wants finite spaces; a robot that has been thrown about is clipped to them.
+_BOUNDS = {
+    "angles": (-4.0, 4.0),
+    "velocities": (-50.0, 50.0),
+    "reference": (-4.0, 4.0),
+    "lean": (-4.0, 4.0),
+    "planned_lean": (-4.0, 4.0),
+    "gyro": (-50.0, 50.0),
+    "feet": (0.0, 1000.0),
+    "left": (0.0, 1.0),
+}
+
 
 class NaoTrackGesture(gymnasium.Env[dict[str, NDArray[np.float64]], NDArray[np.float32]]):
     """:func:`nao_sim.environment.track` with Gymnasium's interface.
@@ -43,7 +55,7 @@ class NaoTrackGesture(gymnasium.Env[dict[str, NDArray[np.float64]], NDArray[np.f
         self.action_space = spaces.Box(-1.0, 1.0, bounds.shape, np.float32)
         observed = self._environment.observation_spec()
         self.observation_space = spaces.Dict(
-            {name: spaces.Box(-np.inf, np.inf, spec.shape, np.float64) for name, spec in observed.items()}
+            {name: spaces.Box(*_BOUNDS[name], spec.shape, np.float64) for name, spec in observed.items()}
         )
 
     def reset(
@@ -76,7 +88,7 @@ class NaoTrackGesture(gymnasium.Env[dict[str, NDArray[np.float64]], NDArray[np.f
 
     @staticmethod
     def _plain(observation: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
-        return dict(observation)
+        return {name: np.clip(value, *_BOUNDS[name]) for name, value in observation.items()}
 
 
 gymnasium.register(ID, entry_point="nao_sim.gym_environment:NaoTrackGesture")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nao_sim.motion.balance import Balance, Gains, lean_of, planned_lean
-from nao_sim.motion.perform import SETTLE_S, MotionLog
+from nao_sim.motion.perform import LEAD_S, SETTLE_S, MotionLog
 from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
 from nao_sim.motion.trials import Trials
 from nao_sim.motion.whole_body import LEG_JOINTS
@@ -187,25 +187,26 @@ def _play(
     rows: list[dict[str, Any]] | None,
 ) -> Outcome:
     steps = int(np.ceil((trajectory.duration + SETTLE_S) / CONTROL_PERIOD - 1e-9))
-    plan = trajectory.sample(trajectory.times[0] + np.arange(1, steps + 1) * CONTROL_PERIOD)
+    plan = trajectory.sample(trajectory.times[0] + np.arange(steps + 1) * CONTROL_PERIOD)
+    ahead = trajectory.sample(trajectory.times[0] + np.arange(1, steps + 1) * CONTROL_PERIOD + LEAD_S)
     leans = planned_lean(plan)
     count = len(crowd.trials)
     feedback = Balance(count, gains)
     fell_at, worst = np.full(count, np.nan), np.zeros(count)
     if rows is not None:
-        rows.append(crowd.snapshot(trajectory.targets[0]))
+        rows.append(crowd.snapshot(plan[0]))
     for step in range(steps):
         lean = crowd.lean()
-        commands = np.repeat(plan[step][None], count, axis=0)
+        commands = np.repeat(ahead[step][None], count, axis=0)
         if balance:
             commands += feedback.correct(lean, crowd.rate(), leans[step])
         crowd.push(step / steps, steps * CONTROL_PERIOD)
         crowd.step(commands)
         newly = crowd.down() & np.isnan(fell_at)
         fell_at[newly] = (step + 1) * CONTROL_PERIOD
-        worst = np.maximum(worst, np.abs(crowd.lean() - leans[step]).max(axis=1))
+        worst = np.maximum(worst, np.abs(crowd.lean() - leans[step + 1]).max(axis=1))
         if rows is not None:
-            rows.append(crowd.snapshot(plan[step]))
+            rows.append(crowd.snapshot(plan[step + 1]))
         if progress is not None:
             progress(step + 1, steps)
     return Outcome(fell_at, worst)

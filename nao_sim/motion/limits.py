@@ -17,6 +17,7 @@ HANDS = ("LHand", "RHand")
 TOLERANCE = 1e-6
 # Slowing down and speeding up again is spread over this many control periods, so that it is not a jolt.
 _BLEND_PERIODS = 15
+_MOST_PASSES = 6
 
 
 @dataclass(frozen=True)
@@ -26,10 +27,12 @@ class Bounds:
     Attributes:
         range_rad: lower and upper target, rad (hands fraction), shape (25, 2).
         speed: nominal speed of each motor at its joint, rad/s (hands 1/s), shape (25,).
+        acceleration: how fast set-points gain speed, rad/s², shape (25,).
     """
 
     range_rad: NDArray[np.float64]
     speed: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -52,13 +55,13 @@ def bounds(limits: str = "thesis") -> Bounds:
     Args:
         limits: ``"thesis"`` for table A1-1, ``"v5"`` for the narrower NAO V5 document.
     """
-    table = joint_table()
-    rows = [table.index(name) for name in ACTUATED]
-    return Bounds(table.range_rad(limits)[rows], table.max_speed_rad()[rows])
+    table = joint_table().select(ACTUATED)
+    acceleration = np.array([joint.acceleration for joint in table.joints])
+    return Bounds(table.range_rad(limits), table.max_speed_rad(), acceleration)
 
 
 def unit_of(joint: str) -> tuple[str, float]:
-    """Return the unit that files and messages use for a joint, and its size in the internal unit's reciprocal."""
+    """Return the unit that files and messages use for a joint, and the factor from rad (or fraction) to it."""
     return ("fraction", 1.0) if joint in HANDS else ("deg", float(np.rad2deg(1.0)))
 
 
@@ -111,31 +114,54 @@ def clipped(trajectory: Trajectory, limits: str = "thesis") -> tuple[Trajectory,
 def stretched(trajectory: Trajectory, limits: str = "thesis", share: float = 0.98) -> tuple[Trajectory, list[Change]]:
     """Give time where a motor could not follow, and only there.
 
-    Each interval is lengthened until no joint moves faster than ``share`` of its nominal speed; the lengthening is
-    blended in and out over 0.3 s. The result is sampled at the control period.
+    Intervals are lengthened until no joint moves faster than ``share`` of its nominal speed and its set-points gain
+    speed no faster than the command layer lets them; the lengthening is blended in and out over 0.3 s. The result is
+    sampled at the control period.
 
     Returns:
-        The trajectory, and one change for each joint that asked for more, at its fastest moment.
+        The trajectory, and one change for each joint that asked for more, at its worst moment.
     """
+    bound = bounds(limits)
     even = trajectory.resampled()
-    if len(even.times) < 2:
-        return even, []
-    ratio = even.speeds() / (share * bounds(limits).speed)
-    changes = []
-    for column, name in enumerate(even.names):
-        row = int(np.argmax(ratio[:, column]))
-        if ratio[row, column] > 1.0 + TOLERANCE:
-            _, scale = unit_of(name)
-            most = share * bounds(limits).speed[column] * scale
-            asked = float(ratio[row, column] * most)
-            changes.append(Change(name, float(even.times[row]), asked, float(most), "speed"))
+    changes = _worst(even, even.speeds() / (share * bound.speed), share * bound.speed, "speed")
+    changes += _worst(even, _accelerations(even) / bound.acceleration, bound.acceleration, "acceleration")
     if not changes:
         return even, []
+    for _ in range(_MOST_PASSES):
+        ratio = even.speeds() / (share * bound.speed)
+        # Time stretched by s divides speeds by s and accelerations by its square.
+        ratio = np.maximum(ratio, np.sqrt(_accelerations(even) / bound.acceleration))
+        if ratio.max(initial=0.0) <= 1.0 + TOLERANCE:
+            break
+        even = _dilated(even, ratio.max(axis=1))
+    return even, changes
+
+
+def _accelerations(even: Trajectory) -> NDArray[np.float64]:
+    """Return how fast each joint gains speed around each interval, rad/s², shape (n - 1, 25)."""
+    speeds = even.speeds()
+    gained = np.maximum(np.diff(speeds, axis=0), 0.0) / CONTROL_PERIOD
+    still = np.zeros((1, speeds.shape[1]))
+    return np.maximum(np.concatenate([gained, still]), np.concatenate([still, gained]))[: len(speeds)]
+
+
+def _worst(even: Trajectory, ratio: NDArray[np.float64], most: NDArray[np.float64], what: str) -> list[Change]:
+    changes = []
+    for column in np.flatnonzero(ratio.max(axis=0, initial=0.0) > 1.0 + TOLERANCE):
+        row = int(np.argmax(ratio[:, column]))
+        allowed = float(most[column] * unit_of(even.names[column])[1])
+        asked = float(ratio[row, column]) * allowed
+        changes.append(Change(even.names[column], float(even.times[row]), asked, allowed, what))
+    return changes
+
+
+def _dilated(even: Trajectory, ratio: NDArray[np.float64]) -> Trajectory:
+    """Return the motion with each interval longer by at least ``ratio``, shape (n - 1,), sampled evenly again."""
     # A maximum filter and then a mean of the same width is smooth and nowhere below the ratio itself.
-    factor = uniform_filter1d(maximum_filter1d(np.maximum(ratio.max(axis=1), 1.0), _BLEND_PERIODS), _BLEND_PERIODS)
+    factor = uniform_filter1d(maximum_filter1d(np.maximum(ratio, 1.0), _BLEND_PERIODS), _BLEND_PERIODS)
     times = np.concatenate([[0.0], np.cumsum(np.diff(even.times) * factor)])
     marks = {name: float(np.interp(at, even.times, times)) for name, at in even.marks.items()}
-    return Trajectory(times, even.targets, even.names, marks).resampled(CONTROL_PERIOD), changes
+    return Trajectory(times, even.targets, even.names, marks).resampled(CONTROL_PERIOD)
 
 
 def fit(trajectory: Trajectory, limits: str = "thesis") -> tuple[Trajectory, list[Change]]:

@@ -17,6 +17,9 @@ Progress = Callable[[int, int], None]
 Array = NDArray[np.float64]
 
 SETTLE_S = 0.5
+# Motor boards interpolate towards a set-point during the period after it came, and the motors follow a little later;
+# sent so much early, the joints are where the trajectory has them at its own time.
+LEAD_S = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,21 +111,22 @@ def perform(
     """
     period = nao.control_period
     steps = int(np.ceil((trajectory.duration + settle_s) / period - 1e-9))
-    plan = trajectory.sample(trajectory.times[0] + np.arange(1, steps + 1) * period)
+    plan = trajectory.sample(trajectory.times[0] + np.arange(steps + 1) * period)
+    ahead = trajectory.sample(trajectory.times[0] + np.arange(1, steps + 1) * period + LEAD_S)
     leans = planned_lean(plan)
     low, high = joint_table().select(ACTUATED).range_rad(nao.limits).T
     feedback = Balance()
     gyro = nao.data.sensor("Gyrometer").data
     recorder = Recorder(nao)
-    recorder.add(trajectory.sample(trajectory.times[0]), nao.setpoint)
+    recorder.add(plan[0], nao.setpoint)
     for step in range(steps):
-        command = plan[step]
+        command = ahead[step]
         if balance:
             lean = lean_of(nao.torso_pose[None, 3:])
             command = np.clip(command + feedback.correct(lean, gyro[None, :2], leans[step])[0], low, high)
         nao.set_targets(command)
         nao.step()
-        recorder.add(plan[step], nao.setpoint)
+        recorder.add(plan[step + 1], nao.setpoint)
         if progress is not None:
             progress(step + 1, steps)
     return recorder.log()

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from nao_sim.motion.errors import MotionError
-from nao_sim.robot.joints import ACTUATED, BODY
+from nao_sim.robot.joints import ACTUATED, BODY, joint_table
 from nao_sim.robot.model import model_spec
 from nao_sim.robot.postures import posture
 
@@ -65,6 +65,7 @@ class _Stance:
         legs = [name for name in BODY if name in (*LEG_JOINTS, "RHipYawPitch") and not name.endswith("HipYawPitch")]
         free = {self.model.joint(name).dofadr[0] for name in legs} | set(range(6))
         self.frozen = mink.DofFreezingTask(self.model, [dof for dof in range(self.model.nv) if dof not in free])
+        self.low, self.high = joint_table().select(ACTUATED).range_rad().T
         self.limits = [mink.ConfigurationLimit(self.model)]
 
     def _home(self) -> NDArray[np.float64]:
@@ -84,6 +85,8 @@ class _Stance:
     def solve(self, targets: NDArray[np.float64], pitch: float, roll: float, height: float) -> NDArray[np.float64]:
         """Return the leg angles, shape (len(LEG_JOINTS),); starts from the solution before."""
         q = self.configuration.q.copy()
+        # What lies outside a range is for the checks to find; here it only has to have a stance.
+        targets = np.clip(targets, self.low, self.high)
         for column, name in enumerate(ACTUATED):
             if name not in LEG_JOINTS:
                 q[self.address[name]] = targets[column]
