@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import csv
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
@@ -50,7 +51,7 @@ def measure(path: Path) -> np.ndarray:
     shown = list(frames(path))
     grey = [cv2.GaussianBlur(cv2.cvtColor(f, cv2.COLOR_BGR2GRAY), (0, 0), 1.2) for f in shown]
     speeds, moving, centres = [], [], []
-    for one, two in zip(grey, grey[1:], strict=False):
+    for one, two in pairwise(grey):
         flow = cv2.calcOpticalFlowFarneback(one, two, None, 0.5, 3, 13, 3, 5, 1.1, 0)
         speed = np.linalg.norm(flow, axis=2) * RATE / WIDTH
         fast = speed > MOVING * 3

@@ -8,6 +8,7 @@ import os
 import platform
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -15,7 +16,7 @@ from typing import Any
 
 from nao_sim.people.errors import FilmError
 from nao_sim.people.film import write_clip
-from nao_sim.people.manifest import replace_file, write_manifest
+from nao_sim.people.manifest import read_manifest, replace_file, write_manifest
 from nao_sim.people.motions import IRRELEVANT, motions
 from nao_sim.people.persons import Person
 from nao_sim.people.photos import DETAIL as PHOTO_DETAIL
@@ -87,8 +88,12 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
         out: the data set's folder; clips that stand there are kept, so an interrupted film goes on where it was.
         processes: how many render at once.
         done: called with the number of frames of each clip as it is finished.
+
+    Raises:
+        FilmError: ``out`` holds a film of another seed, or a process died.
     """
     out.mkdir(parents=True, exist_ok=True)
+    _claim(out, {job.seed for job in jobs})
     for part in out.glob("*/.*.part.*"):
         part.unlink(missing_ok=True)
     todo = [job for job in jobs if not (out / job.file).exists()]
@@ -105,6 +110,16 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
     else:
         _film_many(todo, out, processes, done)
     write_manifest(out, [row(job) for job in jobs])
+
+
+def _claim(out: Path, seeds: set[int]) -> None:
+    """Refuse a folder whose clips come from another seed; they would be taken for those of this one."""
+    try:
+        standing = {row.get("seed") for row in read_manifest(out)}
+    except FilmError:
+        return
+    if standing != seeds:
+        raise FilmError(f"{out} holds another data set (seed {sorted(map(str, standing))[0]}); choose another folder")
 
 
 class _OpenStage:
@@ -146,6 +161,10 @@ def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[i
         try:
             for future in as_completed([pool.submit(_film_one, job, out) for job in jobs]):
                 done(future.result())
+        except BrokenProcessPool as error:
+            raise FilmError(
+                "a filming process died, perhaps of too little memory; run the same command again"
+            ) from error
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise

@@ -32,7 +32,7 @@ def roll(stage: Stage, shot: Shot) -> Iterator[Image]:
     stage.aim(shot.camera)
     stage.room_image()
     times = np.arange(shot.frames) / shot.fps
-    angles, steps = _exposed_angles(shot, times)
+    angles, steps = exposed_angles(shot, times)
     exposure = Exposure(shot.sensor, shot.width, shot.height)
     for k, time in enumerate(times):
         picture = stage.image(angles[k, 0])
@@ -46,7 +46,7 @@ def roll(stage: Stage, shot: Shot) -> Iterator[Image]:
         yield exposure.develop(picture, float(time))
 
 
-def _exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:
+def exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:
     """Joint angles (n, steps, nq) while the shutter is open, and how many of them each frame needs."""
     shutter = shot.sensor.shutter / shot.fps
     offsets = np.linspace(0, shutter, _BLUR_STEPS)

@@ -8,6 +8,6 @@ from nao_sim.people.stage import Stage
 
 
 @pytest.fixture(scope="package")
-def stage() -> Iterator[Stage]:
+def stage(gl: None) -> Iterator[Stage]:
     with Stage() as opened:
         yield opened

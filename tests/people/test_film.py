@@ -30,7 +30,7 @@ def read(path):
 
 
 @pytest.fixture(scope="module")
-def small(tmp_path_factory):
+def small(gl, tmp_path_factory):
     out = tmp_path_factory.mktemp("film") / "set"
     jobs = dataset.plan(PERSONS, 1, 4, ["yes", "victory"], irrelevant=1)
     dataset.film(jobs, out, processes=1)
@@ -71,6 +71,19 @@ def test_an_interrupted_film_goes_on_and_gives_the_same_pixels(small):
     assert (out / jobs[1].file).stat().st_mtime_ns == kept
     assert not stale.exists()
     assert before == {job.file: hashlib.sha256((out / job.file).read_bytes()).hexdigest() for job in jobs}
+
+
+def test_two_processes_give_the_same_pixels_as_one(small, tmp_path):
+    out, jobs = small
+    dataset.film(jobs[:2], tmp_path, processes=2)
+    assert all((tmp_path / job.file).read_bytes() == (out / job.file).read_bytes() for job in jobs[:2])
+
+
+def test_a_folder_with_another_film_is_left_alone(small):
+    out, _ = small
+    with pytest.raises(FilmError, match="choose another folder"):
+        dataset.film(dataset.plan(1, 1, 5, ["yes"]), out, processes=1)
+    assert not list(out.glob("yes/.*"))
 
 
 def test_persons_and_shots_cover_what_is_promised():
