@@ -30,7 +30,7 @@ DIGITS = {
 
 def read_entries(folder: Path) -> list[Entry]:
     """Return the labelled photos; digits 6, 7 and 8 are none of the vocabulary's postures."""
-    rows = csv.DictReader((folder / "labels.csv").open())
+    rows = csv.DictReader((folder / "labels.csv").read_text().splitlines())
     return [
         Entry(
             folder / row["file"],

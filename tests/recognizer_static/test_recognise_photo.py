@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 from pathlib import Path
 
 import cv2
@@ -37,7 +38,7 @@ def test_unseen_model_hands_are_named(recognizer):
 
 
 def test_learning_is_reproducible():
-    a, b = (learn_from_model_hand(persons=3, takes=1, seed=9) for _ in range(2))
+    a, b = (learn_from_model_hand(persons=2, takes=1, seed=9) for _ in range(2))
     assert (a.features == b.features).all()
     assert (a.labels == b.labels).all()
     assert a.provenance["seed"] == 9
@@ -140,8 +141,6 @@ def test_odd_formats_become_bgr(tmp_path):
 
 
 def test_a_database_of_another_version_or_kind_is_refused(database):
-    import dataclasses
-
     with pytest.raises(DatabaseError, match="version"):
         PhotoRecognizer(dataclasses.replace(database, version=99))
     with pytest.raises(DatabaseError, match="photos"):
@@ -185,12 +184,12 @@ def test_explain_writes_every_stage(tmp_path, recognizer):
     assert all(cv2.imread(str(path)).std() > 1 for path in paths)
 
 
-def test_shipped_database_on_real_photos_of_every_tenth_person(real_photos: Path):
+def test_shipped_database_on_real_photos_of_a_few_persons(real_photos: Path):
     shipped = PhotoRecognizer.load(Path(__file__).resolve().parents[2] / "assets" / "databases" / "static.parquet")
     rows = [
         row
-        for row in csv.DictReader((real_photos / "labels.csv").open())
-        if int(row["person"][1:]) % 10 == 0 and row["digit"] in DIGITS
+        for row in csv.DictReader((real_photos / "labels.csv").read_text().splitlines())
+        if int(row["person"][1:]) % 25 == 1 and row["digit"] in DIGITS
     ]
     right = [shipped.recognize(real_photos / row["file"]).label == DIGITS[row["digit"]] for row in rows]
     assert np.mean(right) >= 0.8, f"{np.mean(right):.2f} of {len(right)}"
