@@ -22,7 +22,7 @@ def validate_gestures(
 
     if out is not None and not (fit and len(names) == 1):
         raise GestureError("--out needs --fit and exactly one gesture; give both or leave it out")
-    names = names or [name for name, gesture in library().items() if gesture.walk is None]
+    names = names or list(library())
     found = []
     with stages(hidden=as_json) as progress:
         for done, name in enumerate(names):
@@ -64,10 +64,11 @@ def _draw(found: list[Validation], figure: Path) -> None:
 def _print(rows: list[dict[str, Any]]) -> None:
     from rich.console import Console
 
-    from nao_sim.cli.motion_table import table_of
+    from nao_sim.cli.motion_table import LEGEND, table_of
 
     console = Console(soft_wrap=True)
     console.print(table_of(rows))
+    console.print(LEGEND)
     for row in rows:
         for fault in row["faults"]:
             console.print(f"[red]{row['gesture']}[/]: {fault}")

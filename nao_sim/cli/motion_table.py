@@ -17,17 +17,12 @@ _EXTREMES = (
     "com_margin_mm",
     "tracking_deg",
 )
-# Margin to the range, share of nominal speed, share of stall torque, distances, root mean square error.
-_HEADINGS = (
-    "s",
-    "range °",
-    "speed",
-    "torque",
-    "self mm",
-    "CoM mm",
-    "track °",
-    "stands",
+_HEADINGS = ("s", "range", "speed", "torque", "self", "CoM", "track")
+LEGEND = (
+    "s: duration; range: degrees left to the nearest bound; speed: of nominal; torque: of stall; self: mm between parts "
+    "of the body; CoM: mm inside the feet; track: degrees RMS of the worst joint"
 )
+"""What the columns are."""
 
 
 def as_dict(measures: Measures) -> dict[str, Any]:
@@ -52,15 +47,14 @@ def table_of(rows: list[dict[str, Any]]) -> Table:
     table = Table(box=None, header_style="bold", pad_edge=False)
     table.add_column("gesture", no_wrap=True)
     for heading in _HEADINGS:
-        table.add_column(heading, justify="right")
-    table.add_column("passes")
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("passes", no_wrap=True)
     for row in rows:
         verdict = "[red]no[/]" if row["faults"] else "[green]ok[/]"
         cells = [""] * len(_HEADINGS)
         if "duration_s" in row:
             values = [row["duration_s"], *(row[name]["value"] for name in _EXTREMES)]
             formats = ("{:.1f}", "{:.1f}", "{:.2f}", "{:.2f}", "{:.0f}", "{:.0f}", "{:.2f}")
-            stands = "yes" if row["ends_standing"] else "no"
-            cells = [*(form.format(value) for form, value in zip(formats, values, strict=True)), stands]
+            cells = [form.format(value) for form, value in zip(formats, values, strict=True)]
         table.add_row(row["gesture"], *cells, verdict)
     return table

@@ -1,4 +1,4 @@
-"""One trajectory on many robots at once, each in its own trial, on all cores (``mujoco.batch``)."""
+"""One motion on many robots at once, each in its own trial, on all cores (``mujoco.batch``)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from nao_sim.motion.balance import Balance, Gains, lean_of, planned_lean
-from nao_sim.motion.perform import LEAD_S, SETTLE_S, MotionLog
-from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
+from nao_sim.motion.balance import Gains, lean_of
+from nao_sim.motion.perform import MotionLog
+from nao_sim.motion.players import Motion, Player, player_of
+from nao_sim.motion.trajectory import CONTROL_PERIOD
 from nao_sim.motion.trials import Trials
 from nao_sim.motion.whole_body import LEG_JOINTS
 from nao_sim.robot import ACTUATED, Nao, joint_table
@@ -156,7 +157,7 @@ class Crowd:
 
 
 def play_all(
-    trajectory: Trajectory,
+    motion: Motion,
     trials: Trials,
     *,
     balance: bool = True,
@@ -164,14 +165,23 @@ def play_all(
     threads: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> Outcome:
-    """Play a trajectory in every trial, as :func:`nao_sim.motion.perform.perform` does in the nominal one."""
-    return _play(Crowd(trials, threads), trajectory, balance, gains, progress, None)
+    """Play a motion in every trial.
+
+    Args:
+        motion: a trajectory, played as :func:`nao_sim.motion.perform.perform` does in the nominal trial, or a walk.
+        trials: one robot each.
+        balance, gains: of a trajectory's feedback.
+        threads: of the batch; 0 for all cores. The outcome does not depend on it.
+        progress: called with (periods done, periods in all).
+    """
+    player = player_of(motion, len(trials), balance, gains)
+    return _play(Crowd(trials, threads), player, progress, None)
 
 
-def replay(trajectory: Trajectory, trials: Trials) -> MotionLog:
+def replay(motion: Motion, trials: Trials) -> MotionLog:
     """Play the first trial alone and return its log."""
     rows: list[dict[str, Any]] = []
-    outcome = _play(Crowd(trials, 1), trajectory, True, None, None, rows)
+    outcome = _play(Crowd(trials, 1), player_of(motion, 1), None, rows)
     times = np.asarray(CONTROL_PERIOD * np.arange(len(rows)), dtype=np.float64)
     columns: dict[str, Any] = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     fell_at = None if outcome.up[0] else float(outcome.fell_at[0])
@@ -180,33 +190,23 @@ def replay(trajectory: Trajectory, trials: Trials) -> MotionLog:
 
 def _play(
     crowd: Crowd,
-    trajectory: Trajectory,
-    balance: bool,
-    gains: Gains | None,
+    player: Player,
     progress: Callable[[int, int], None] | None,
     rows: list[dict[str, Any]] | None,
 ) -> Outcome:
-    steps = int(np.ceil((trajectory.duration + SETTLE_S) / CONTROL_PERIOD - 1e-9))
-    plan = trajectory.sample(trajectory.times[0] + np.arange(steps + 1) * CONTROL_PERIOD)
-    ahead = trajectory.sample(trajectory.times[0] + np.arange(1, steps + 1) * CONTROL_PERIOD + LEAD_S)
-    leans = planned_lean(plan)
-    count = len(crowd.trials)
-    feedback = Balance(count, gains)
+    count, steps = len(crowd.trials), len(player.planned) - 1
     fell_at, worst = np.full(count, np.nan), np.zeros(count)
     if rows is not None:
-        rows.append(crowd.snapshot(plan[0]))
+        rows.append(crowd.snapshot(player.planned[0]))
     for step in range(steps):
-        lean = crowd.lean()
-        commands = np.repeat(ahead[step][None], count, axis=0)
-        if balance:
-            commands += feedback.correct(lean, crowd.rate(), leans[step])
+        commands = player.commands(step, crowd.lean(), crowd.rate())
         crowd.push(step / steps, steps * CONTROL_PERIOD)
         crowd.step(commands)
         newly = crowd.down() & np.isnan(fell_at)
         fell_at[newly] = (step + 1) * CONTROL_PERIOD
-        worst = np.maximum(worst, np.abs(crowd.lean() - leans[step + 1]).max(axis=1))
+        worst = np.maximum(worst, np.abs(crowd.lean() - player.leans[step + 1]).max(axis=1))
         if rows is not None:
-            rows.append(crowd.snapshot(plan[step + 1]))
+            rows.append(crowd.snapshot(player.planned[step + 1]))
         if progress is not None:
             progress(step + 1, steps)
     return Outcome(fell_at, worst)

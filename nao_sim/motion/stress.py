@@ -9,7 +9,7 @@ import numpy as np
 
 from nao_sim.motion.crowd import Outcome, play_all, replay
 from nao_sim.motion.perform import MotionLog
-from nao_sim.motion.trajectory import Trajectory
+from nao_sim.motion.players import Motion
 from nao_sim.motion.trials import FACTORS, draw_trials
 from nao_sim.robot import model_spec
 
@@ -55,7 +55,7 @@ def _nbody() -> int:
 
 
 def stress(
-    trajectory: Trajectory,
+    motion: Motion,
     trials: int = 1000,
     seed: int = 0,
     *,
@@ -64,10 +64,10 @@ def stress(
     threads: int = 0,
     progress: Progress | None = None,
 ) -> StressReport:
-    """Play a trajectory in many randomised trials.
+    """Play a motion in many randomised trials.
 
     Args:
-        trajectory: what to do.
+        motion: a trajectory or the plan of a walk.
         trials: how many.
         seed: trial k of a seed is always the same.
         sizes: factor → how far it may go, in multiples of its usual size; None: all at 1.
@@ -79,7 +79,7 @@ def stress(
     outcomes = []
     for first in range(0, trials, _CHUNK):
         chosen = range(first, min(first + _CHUNK, trials))
-        outcomes.append(play_all(trajectory, draw_trials(seed, chosen, nbody, sizes), threads=threads))
+        outcomes.append(play_all(motion, draw_trials(seed, chosen, nbody, sizes), threads=threads))
         if progress is not None:
             progress("trials", chosen.stop, trials)
     outcome = Outcome(*(np.concatenate([getattr(o, name) for o in outcomes]) for name in ("fell_at", "worst_lean")))
@@ -92,13 +92,13 @@ def stress(
         fell=tuple(int(index) for index in fell),
         fell_at_s=tuple(float(at) for at in outcome.fell_at[fell]),
         lean_deg=(float(median), float(high)),
-        breaking_size=_sweep(trajectory, seed, nbody, threads, progress) if sweep else {},
+        breaking_size=_sweep(motion, seed, nbody, threads, progress) if sweep else {},
     )
 
 
-def replay_trial(trajectory: Trajectory, seed: int, index: int, sizes: Mapping[str, float] | None = None) -> MotionLog:
+def replay_trial(motion: Motion, seed: int, index: int, sizes: Mapping[str, float] | None = None) -> MotionLog:
     """Play one trial of a stress test again and return its log."""
-    return replay(trajectory, draw_trials(seed, [index], _nbody(), sizes))
+    return replay(motion, draw_trials(seed, [index], _nbody(), sizes))
 
 
 def describe_trial(seed: int, index: int) -> dict[str, float | list[float]]:
@@ -123,15 +123,13 @@ def _rounded(values: Sequence[float] | np.ndarray) -> list[float]:
     return [round(float(value), 2) for value in values]
 
 
-def _sweep(
-    trajectory: Trajectory, seed: int, nbody: int, threads: int, progress: Progress | None
-) -> dict[str, float | None]:
+def _sweep(motion: Motion, seed: int, nbody: int, threads: int, progress: Progress | None) -> dict[str, float | None]:
     """Return each factor's breaking size; sizes grow until one factor breaks the motion, the rest are then stronger."""
     found: dict[str, float | None] = dict.fromkeys(FACTORS)
     for done, size in enumerate(SWEEP_SIZES):
         for factor in FACTORS:
             trials = draw_trials(seed, range(SWEEP_TRIALS), nbody, {factor: size})
-            if play_all(trajectory, trials, threads=threads).up.mean() <= 0.5:
+            if play_all(motion, trials, threads=threads).up.mean() <= 0.5:
                 found[factor] = size
         if progress is not None:
             progress("looking for the weakest factor", done + 1, len(SWEEP_SIZES))
