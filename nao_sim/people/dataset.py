@@ -90,8 +90,10 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
         done: called with the number of frames of each clip as it is finished.
 
     Raises:
-        FilmError: ``out`` holds a film of another seed, or a process died.
+        FilmError: ``out`` is a file or holds a film of another seed, or a process died.
     """
+    if out.exists() and not out.is_dir():
+        raise FilmError(f"{out} is a file; give a folder for the data set")
     out.mkdir(parents=True, exist_ok=True)
     _claim(out, {job.seed for job in jobs})
     for part in out.glob("*/.*.part.*"):

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from nao_sim.people.gait import Walk, walk_angles
-from nao_sim.people.motions import SLIDES, Motion, hand_postures, joint_ranges, joints, motions, pose, tables
+from nao_sim.people.motions import SLIDES, Motion, joint_ranges, joints, motions, pose, tables
 from nao_sim.people.persons import FINGERS, Person
+from nao_sim.people.standing import standing, sway_of_clip
 from nao_sim.people.surface import Array
 
 TEMPO = (0.6, 1.6)
@@ -164,7 +165,7 @@ class _Plan:
         self.size = float(np.exp(rng.uniform(*np.log(SIZE))))
         self.mirrored = motion.mirrored or (motion.either_side and bool(rng.random() < 0.5))
         self.jitter = rng.normal(0, np.radians(_JITTER_DEG), len(joints()))
-        self.base = _standing(person, rng)
+        self.base = standing(person, rng)
         self.cycles, self.now = 0, 0.0
         self.walk: Walk | None = None
         self.strokes: list[Stroke] = []
@@ -234,7 +235,7 @@ class _Plan:
             cycles=self.cycles,
             strokes=tuple(strokes),
             base=self.base,
-            sway=_sway(rng),
+            sway=sway_of_clip(rng),
             walk=None if self.walk is None else self.walk.delayed(lead),
             lively=self.person.liveliness,
             stature=self.person.stature,
@@ -251,40 +252,3 @@ def of_a_finger() -> NDArray[np.bool_]:
 def _of_a_limb() -> NDArray[np.bool_]:
     """Joints (nq,) of arms and legs: a pose names their angle, while trunk and head move from where they are."""
     return np.array([name[:2] in ("r_", "l_") for name in joints()])
-
-
-def _standing(person: Person, rng: Generator) -> Array:
-    """This clip's way of standing at rest (nq,): arms hanging, hands relaxed, not quite facing the camera."""
-    base = np.zeros(len(joints()))
-    index = joints()
-
-    def put(name: str, degrees: float) -> None:
-        base[index[name]] = np.radians(degrees)
-
-    for side, abduct in (("r_", person.right_rest), ("l_", person.left_rest)):
-        put(f"{side}shoulder_abduct", abduct + rng.normal(0, 1.5))
-        put(f"{side}shoulder_flex", rng.normal(2, 4))
-        put(f"{side}elbow", rng.uniform(6, 24))
-        put(f"{side}pronate", rng.uniform(10, 60))
-        put(f"{side}hip_abduct", rng.uniform(1, 7))
-        for joint, angle in hand_postures()["relaxed"].items():
-            put(f"{side}{joint}", angle + rng.normal(0, 3))
-    turn = rng.normal(0, 7)
-    put("root_yaw", turn)
-    put("head_yaw", -0.6 * turn + rng.normal(0, 4))
-    put("head_pitch", rng.normal(2, 4))
-    put("head_roll", rng.normal(0, 2.5))
-    put("waist_roll", rng.normal(0, 1.5))
-    put("chest_pitch", rng.normal(2, 3))
-    return base
-
-
-def _sway(rng: Generator) -> dict[int, Array]:
-    """Three incommensurable sinusoids per swaying joint: rows (amplitude, Hz, phase)."""
-    found = {}
-    for name, (deviation, period) in tables()["sway"].items():
-        amount = deviation if name in ("root_x", "root_y") else np.radians(deviation)
-        share = rng.dirichlet([2.0, 1.5, 1.0]) ** 0.5
-        rates = np.array([1.0, 1.7, 3.1]) * rng.uniform(0.7, 1.4, 3) / period
-        found[joints()[name]] = np.stack([share * amount * np.sqrt(2), rates, rng.uniform(0, 2 * np.pi, 3)], axis=1)
-    return found
