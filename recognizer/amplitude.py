@@ -23,6 +23,7 @@ class MovingRegions:
         centroid: (x, y) of all moving regions as fractions of the image; NaN when nothing moves.
         area: share of the image that moves.
         velocity: mean velocity of what moves [image widths, image heights per second].
+        sides: how many of the image's four borders move for most of their length.
     """
 
     time: float
@@ -30,6 +31,7 @@ class MovingRegions:
     centroid: tuple[float, float]
     area: float
     velocity: tuple[float, float] = (0.0, 0.0)
+    sides: int = 0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -87,7 +89,13 @@ def moving_regions(u: np.ndarray, v: np.ndarray, time: float, seconds: float) ->
     boxes = stats[keep, :4] / np.array([width, height, width, height], float)
     centroid = ((x + 0.5) / width, (y + 0.5) / height)
     velocity = (cv2.mean(u, mask)[0] / width / seconds, cv2.mean(v, mask)[0] / height / seconds)
-    return MovingRegions(time, boxes, centroid, float(areas.sum() / mask.size), velocity)
+    return MovingRegions(time, boxes, centroid, float(areas.sum() / mask.size), velocity, _moving_sides(mask))
+
+
+def _moving_sides(mask: np.ndarray) -> int:
+    band = max(1, min(mask.shape) // 12)
+    borders = (mask[:band], mask[-band:], mask[:, :band], mask[:, -band:])
+    return sum(bool(border.mean() > 255 / 2) for border in borders)
 
 
 def amplitude(regions: list[MovingRegions], size: tuple[int, int], rule: str = "whole_path") -> Amplitude:

@@ -13,6 +13,7 @@ import numpy as np
 from recognizer.amplitude import Amplitude, MovingRegions
 from recognizer.decision import Decision, Neighbour
 from recognizer.difference import Ellipse, difference_image, ellipses
+from recognizer.finder import Body
 from recognizer.key_frames import equal_motion_frames
 from recognizer.samples import Sample
 
@@ -23,11 +24,13 @@ class Evidence:
     Attributes:
         samples: the frames that were looked at, in order, at most 10 a second.
         regions: moving regions of all samples but the first.
+        body: the person who was found [px of the samples' pictures], None when the method does not look for one.
     """
 
-    def __init__(self, samples: list[Sample], regions: list[MovingRegions]) -> None:
+    def __init__(self, samples: list[Sample], regions: list[MovingRegions], body: Body | None = None) -> None:
         self.samples = samples
         self.regions = regions
+        self.body = body
 
     @functools.cached_property
     def key_samples(self) -> list[Sample]:

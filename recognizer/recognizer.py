@@ -16,7 +16,9 @@ from recognizer.decision import Decision
 from recognizer.errors import ClipError, DatabaseError
 from recognizer.methods import method_of
 from recognizer.recognition import Evidence, Recognition
-from recognizer.track import Track
+from recognizer.samples import Sample
+from recognizer.segments import Segmenter
+from recognizer.track import MIN_SAMPLES, Track
 
 Progress = Callable[[int, int | None], None]
 
@@ -76,8 +78,7 @@ class Recognizer:
         """
         begun = time.perf_counter()
         clip = clip if isinstance(clip, Clip) else open_clip(clip)
-        if clip.still:
-            raise ClipError(f"{clip.source} is a photo; this database is of moving gestures, use one of postures")
+        self._check_moving(clip)
         allowed = self.allowed(among)
         stream = self.stream(clip.fps, clip.source, clip.frames[0])
         total = clip.frame_count
@@ -88,6 +89,40 @@ class Recognizer:
         read = time.perf_counter() - begun
         warnings = (*clip.warnings, *ends_early(clip, stream.track.sampler.pushed))
         return stream.finish(allowed, warnings, {"frames": read})
+
+    def recognize_all(
+        self, clip: Clip | str | os.PathLike[str], among: Iterable[str] | None = None, progress: Progress | None = None
+    ) -> list[Recognition]:
+        """Find where gestures begin and end in a long video, and answer each.
+
+        Arguments and errors as :meth:`recognize`; a video without motion gives an empty list.
+        """
+        clip = clip if isinstance(clip, Clip) else open_clip(clip)
+        self._check_moving(clip)
+        allowed = self.allowed(among)
+        segmenter = Segmenter(clip.fps, clip.frames[0], clip.source)
+        answers: list[Recognition] = []
+
+        def answer(samples: list[Sample]) -> None:
+            if len(samples) >= MIN_SAMPLES:
+                stream = self.stream(clip.fps, clip.source, clip.frames[0])
+                for sample in samples:
+                    stream.track.push_sample(sample)
+                answers.append(stream.finish(allowed, clip.warnings))
+
+        for number, frame in enumerate(clip, 1):
+            for samples in segmenter.push(frame):
+                answer(samples)
+            if progress is not None:
+                progress(number, clip.frame_count)
+        for samples in segmenter.finish():
+            answer(samples)
+        return answers
+
+    @staticmethod
+    def _check_moving(clip: Clip) -> None:
+        if clip.still:
+            raise ClipError(f"{clip.source} is a photo; this database is of moving gestures; use one of postures")
 
     def allowed(self, among: Iterable[str] | None) -> set[str] | None:
         """Check the labels of a context; None means all."""
@@ -130,6 +165,7 @@ class RecognizerStream:
         vector = self.recognizer.method.features(self.track)
         decision = self.recognizer.decide(vector, among)
         samples = self.track.samples
+        body = self.track.body if self.recognizer.method.needs_body else None
         height, width = samples[0].grey.shape
         return Recognition.of(
             decision,
@@ -138,9 +174,9 @@ class RecognizerStream:
             end=samples[-1].time,
             method=self.recognizer.database.method,
             source=self.track.source,
-            warnings=warnings,
+            warnings=(*warnings, *self.track.scene.warnings()),
             timings={**(timings or {}), "answer": time.perf_counter() - begun},
-            evidence=Evidence(samples, list(self.track.regions)),
+            evidence=Evidence(samples, list(self.track.regions), body),
         )
 
 

@@ -49,7 +49,7 @@ class Sampler:
         self.fps = fps
         self.samples: deque[Sample] = deque(maxlen=max(2, int(seconds * min(fps, RATE))))
         self.pushed = 0
-        self._first_index = first_index
+        self.first_index = first_index
         self._step = max(1.0, fps / RATE)
         self._taken = 0
 
@@ -67,6 +67,6 @@ class Sampler:
             image = frame.copy()
         grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
         small = cv2.resize(grey, scaled_size(width, height, FLOW_SIDE), interpolation=cv2.INTER_AREA)
-        sample = Sample(self._first_index + number, number / self.fps, image, grey, small.astype(np.float32))
+        sample = Sample(self.first_index + number, number / self.fps, image, grey, small.astype(np.float32))
         self.samples.append(sample)
         return sample

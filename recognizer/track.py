@@ -13,6 +13,7 @@ from recognizer.errors import ClipError
 from recognizer.finder import Body
 from recognizer.flow import horn_schunck
 from recognizer.samples import Sample, Sampler
+from recognizer.scene import Scene
 from recognizer.window import Step, Windows
 
 MIN_SAMPLES = 6  # six key frames make the five states of a large gesture
@@ -32,6 +33,7 @@ class Track:
 
     Attributes:
         regions: moving regions of each kept sample but the first of the clip.
+        scene: watches for a moving camera, cuts and no motion at all.
         steps: what the person's window shows; see :meth:`end`.
     """
 
@@ -44,6 +46,7 @@ class Track:
         self._waiting: deque[Sample] = deque(maxlen=kept)
         self._finder = BodyFinder() if find_body else None
         self._windows: Windows | None = None
+        self.scene = Scene()
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
 
@@ -65,14 +68,24 @@ class Track:
             ClipError: the frame has another size than those before.
         """
         sample = self.sampler.push(frame)
-        if sample is None:
-            return
+        if sample is not None:
+            self._take(sample)
+
+    def push_sample(self, sample: Sample) -> None:
+        """Take a sample that another track has made of a frame."""
+        self.sampler.samples.append(sample)
+        self.sampler.pushed = sample.index + 1 - self.sampler.first_index
+        self._take(sample)
+
+    def _take(self, sample: Sample) -> None:
         before, self._before = self._before, sample
+        self.scene.observe(sample)
         if before is not None:
             if before.grey.shape != sample.grey.shape:
                 raise ClipError(f"{self.source} changes its frame size on the way; convert it to one size")
             self._flow = horn_schunck(before.small, sample.small, ALPHA, FLOW_ITERATIONS, self._flow)
             self.regions.append(moving_regions(*self._flow, sample.time, sample.time - before.time))
+            self.scene.observe_motion(self.regions[-1])
         if self._finder is not None:
             self._waiting.append(sample)
             self._finder.observe(sample)

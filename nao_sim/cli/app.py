@@ -15,6 +15,7 @@ COMMANDS = {
     "dataset": "dataset",
     "export": "export",
     "film": "film",
+    "evaluate": "evaluate",
     "gestures": "gestures",
     "imitate": "imitate",
     "recognize": "recognize",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from pathlib import Path
 from typing import Annotated, Any
@@ -19,13 +20,15 @@ def recognize(
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
 ) -> None:
     """Name the gesture of VIDEO, or say that it is none of the known ones."""
+    from nao_sim.cli.progress import stages
     from nao_sim.resources import resource
     from recognizer import Recognizer, open_clip, parse_frame_range
 
     clip = open_clip(video, parse_frame_range(frames) if frames else None)
     labels = [name.strip() for name in among.split(",")] if among else None
     recognizer = Recognizer.load(database or resource("assets", "databases", "dynamic.parquet"))
-    with _progress() as update:
+    with stages(hidden=as_json) as show:
+        update = functools.partial(show, "reading frames")
         if every:
             answers = recognizer.recognize_all(clip, labels, update)
         else:
@@ -40,22 +43,6 @@ def recognize(
         typer.echo(json.dumps(plain if every else plain[0]))
     else:
         _print(answers)
-
-
-class _progress:
-    """A progress bar on standard error that shows only on a terminal and goes away when done."""
-
-    def __enter__(self) -> Any:
-        from rich.console import Console
-        from rich.progress import Progress
-
-        self.bar = Progress(console=Console(stderr=True), transient=True)
-        self.bar.start()
-        self.task = self.bar.add_task("reading frames", total=None)
-        return lambda done, total: self.bar.update(self.task, completed=done, total=total)
-
-    def __exit__(self, *_: object) -> None:
-        self.bar.stop()
 
 
 def _print(answers: list[Any]) -> None:

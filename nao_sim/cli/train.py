@@ -24,11 +24,12 @@ def train(
     from recognizer import Recognizer
 
     console = Console(stderr=as_json)
-    database, problems = described(dataset, method, jobs, console)
+    database, problems = described(dataset, method, jobs)
     recognizer = Recognizer.fit(database)
     recognizer.save(out)
     for problem in problems:
         console.print(f"left out: {problem}", style="yellow")
+    size = out.stat().st_size
     summary = {
         "database": str(out),
         "method": method,
@@ -36,38 +37,36 @@ def train(
         "left_out": len(problems),
         "persons": len(set(database.persons.tolist())),
         "gestures": recognizer.labels,
-        "bytes": out.stat().st_size,
+        "bytes": size,
     }
     if as_json:
         typer.echo(json.dumps(summary))
     else:
         console.print(
             f"{out}: {summary['clips']} clips of {summary['persons']} persons, "
-            f"{len(recognizer.labels)} gestures, {summary['bytes'] / 1e6:.2f} MB, method {method}"
+            f"{len(recognizer.labels)} gestures, {size / 1e6:.2f} MB, method {method}"
         )
 
 
-def described(dataset: Path, method: str, jobs: int, console: Any) -> tuple[Any, list[str]]:
+def described(dataset: Path, method: str, jobs: int) -> tuple[Any, list[str]]:
     """Build the feature database of a data set folder under a progress bar.
 
     Raises:
         DatabaseError: the data set cannot be used, or the method is unknown.
     """
-    from rich.progress import Progress
-
+    from nao_sim.cli.progress import stages
     from nao_sim.gestures.vocabulary import vocabulary
     from recognizer.dataset import build_database, read_manifest
 
     entries = read_manifest(dataset)
     families = {name: entry.family for name, entry in vocabulary().items() if entry.family in ("small", "large")}
-    with Progress(console=console, transient=True) as bar:
-        task = bar.add_task("describing clips", total=len(entries))
+    with stages() as show:
         return build_database(
             entries,
             families,
             method,
             jobs,
-            lambda done, _: bar.update(task, completed=done),
+            lambda done, total: show("describing clips", done, total),
             _provenance(dataset, method),
         )
 

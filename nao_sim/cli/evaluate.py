@@ -1,0 +1,56 @@
+"""``nao-sim evaluate``: how well are gestures named, and irrelevant motion rejected, on persons never seen?"""
+
+from __future__ import annotations
+
+import functools
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+
+def evaluate(
+    dataset: Annotated[Path, typer.Argument(help="data set folder, or a database (.parquet) made by train")],
+    protocol: Annotated[str, typer.Option(help="loo-person or k-fold")] = "loo-person",
+    methods: Annotated[str, typer.Option(help="methods to compare, separated by commas")] = "body",
+    figures: Annotated[Path | None, typer.Option(help="folder for the figures of results")] = None,
+    jobs: Annotated[int, typer.Option(help="processes")] = 2,
+    as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False,
+) -> None:
+    """Score DATASET by models that never saw the person (or clip) they answer for."""
+    from rich.console import Console
+
+    from nao_sim.cli.progress import stages
+    from nao_sim.cli.train import described
+    from recognizer import Database
+    from recognizer.evaluation import evaluate as score
+
+    console = Console(stderr=as_json)
+    evaluations = []
+    for method in methods.split(","):
+        if dataset.is_file():
+            database = Database.load(dataset)
+        else:
+            database, _ = described(dataset, method.strip(), jobs)
+        with stages(as_json) as show:
+            name = f"{protocol}, {database.method}"
+            evaluations.append(score(database, protocol, functools.partial(show, name)))
+    if figures is not None:
+        from recognizer.figures import draw_figures
+
+        for path in draw_figures(evaluations, figures):
+            console.print(f"wrote {path}")
+    if as_json:
+        typer.echo(json.dumps({e.method: {**e.summary(), "by_k": e.by_k} for e in evaluations}))
+    else:
+        _print(console, evaluations)
+
+
+def _print(console: Any, evaluations: list[Any]) -> None:
+    from rich.table import Table
+
+    table = Table("share", *(f"{e.method}, {e.protocol}" for e in evaluations))
+    for row in evaluations[0].summary():
+        table.add_row(row, *(f"{100 * e.summary()[row]:.1f} %" for e in evaluations))
+    console.print(table)
