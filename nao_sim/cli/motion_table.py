@@ -19,8 +19,8 @@ _EXTREMES = (
 )
 _HEADINGS = ("s", "range", "speed", "torque", "self", "CoM", "track")
 LEGEND = (
-    "s: duration; range: degrees left to the nearest bound; speed: of nominal; torque: of stall; self: mm between parts "
-    "of the body; CoM: mm inside the feet; track: degrees RMS of the worst joint"
+    "s: duration; range: degrees left to the nearest bound; speed: of nominal; torque: of stall; "
+    "self: mm between parts of the body; CoM: mm inside the feet; track: degrees RMS of the worst joint"
 )
 """What the columns are."""
 
