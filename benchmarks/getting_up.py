@@ -2,8 +2,8 @@
 
     python benchmarks/getting_up.py --trials 20 --seed 1
 
-Each trial lets the standing robot be knocked over (its knees give way and something pushes it), waits until it lies,
-and then calls ``get_up``. A trial counts as first-time when the second attempt was not needed.
+Each trial knocks the standing robot over with a push of 9 N·s, waits until it lies, and then calls ``get_up``.
+A trial counts as first-time when the second attempt was not needed.
 """
 
 from __future__ import annotations

@@ -25,9 +25,9 @@ STANDING_HEIGHT_M = 0.29
 def get_up(nao: Nao, *, progress: Progress | None = None) -> MotionLog:
     """Get up from belly or back and stand in StandInit; a second attempt follows a first that failed.
 
-    From the back the hips fold to 104 degrees, which the thesis's limits allow and those of NAO V5 do not: with
-    ``limits="v5"`` the robot stays down. Which motion it takes is told by the torso's orientation. An upright robot goes to StandInit;
-    should it fall on the way, because it knelt or sat, it gets up from there.
+    Which motion it takes is told by the torso's orientation. An upright robot goes to StandInit; should it fall on the
+    way, because it knelt or sat, it gets up from there. From the back the hips fold to 104 degrees, which the thesis's
+    limits allow and those of NAO V5 do not: with ``limits="v5"`` the robot stays on its back.
 
     Args:
         nao: the robot, in any state.
