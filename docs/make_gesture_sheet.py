@@ -21,6 +21,7 @@ MARKS = ("hold", "bowed", "up")
 
 
 def moment(performance):
+    """Return the time to show, s."""
     marks = performance.trajectory.marks
     named = [marks[name] for name in MARKS if name in marks]
     if named:
@@ -30,6 +31,7 @@ def moment(performance):
 
 
 def main():
+    """Draw the sheet beside this file."""
     nao, tiles = Nao(), []
     for name, gesture in library().items():
         nao.reset()

@@ -123,7 +123,9 @@ def test_naoqi_script_plays_the_motion_through_qi(wave, tmp_path, monkeypatch):
 def test_writing_is_all_or_nothing(wave, tmp_path):
     with pytest.raises(GestureFileError, match=r"unknown suffix '\.bvh'"):
         save_trajectory(wave, tmp_path / "wave.bvh")
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(
+        GestureFileError, match=r"cannot be written \(No such file or directory\); choose another place"
+    ):
         save_trajectory(wave, tmp_path / "nowhere" / "wave.csv")
     assert list(tmp_path.iterdir()) == []
     (tmp_path / "wave.csv").write_text("old")

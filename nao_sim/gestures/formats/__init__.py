@@ -53,8 +53,7 @@ def save_trajectory(trajectory: Trajectory, path: str | Path) -> None:
         path: ``.motion`` (Webots), ``.py`` (NAOqi script) or ``.csv``; replaced as a whole if it is there.
 
     Raises:
-        GestureFileError: unknown suffix.
-        OSError: the place cannot be written.
+        GestureFileError: unknown suffix, or the place cannot be written.
     """
     path = Path(path)
     writer = WRITERS.get(path.suffix.lower())

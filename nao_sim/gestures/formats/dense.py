@@ -61,7 +61,18 @@ def gesture_of_samples(
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a text file beside its place and move it there, so that nobody sees half of it."""
+    """Write a text file beside its place and move it there, so that nobody sees half of it.
+
+    Raises:
+        GestureFileError: the place cannot be written.
+    """
+    try:
+        _write_whole(path, text)
+    except OSError as error:
+        raise GestureFileError(path, f"cannot be written ({error.strerror or error}); choose another place") from None
+
+
+def _write_whole(path: Path, text: str) -> None:
     descriptor, beside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
         with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as out:
