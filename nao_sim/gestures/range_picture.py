@@ -25,14 +25,14 @@ def draw_range_use(use: Mapping[str, NDArray[np.float64]], path: Path) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg  # heavy, and only needed here
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11, 2.2 + 0.24 * len(use)), layout="constrained")
+    figure = Figure(figsize=(11, 4.0), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots()
     step = 0.8 / max(len(use), 1)
     colours = ["#1f6fb2", "#f0821e", "#3a9a5b", "#8a5bb0", "#b23a48", "#777777"]
     for row, (name, spans) in enumerate(use.items()):
         at = np.arange(len(ACTUATED)) - 0.4 + step * (row + 0.5)
-        height = np.maximum(spans[:, 1] - spans[:, 0], 0.004)
+        height = np.maximum(spans[:, 1] - spans[:, 0], 0.015)
         axes.bar(at, height, 0.9 * step, bottom=spans[:, 0], color=colours[row % len(colours)], label=name)
     axes.axhline(0, color="black", linewidth=0.8)
     axes.axhline(1, color="black", linewidth=0.8)
@@ -42,7 +42,7 @@ def draw_range_use(use: Mapping[str, NDArray[np.float64]], path: Path) -> None:
     axes.set_xlim(-0.6, len(ACTUATED) - 0.4)
     axes.set_title("Use of each joint's range")
     if len(use) <= 12:
-        axes.legend(ncols=4, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.32), frameon=False)
+        figure.legend(ncols=4, fontsize="small", loc="outside lower center", frameon=False)
     beside = path.with_name(f".{path.stem}.part{path.suffix}")
     try:
         figure.savefig(beside, dpi=110)
