@@ -15,7 +15,7 @@ from nao_sim.episodes.errors import EpisodeError
 from nao_sim.episodes.outcome import measure
 from nao_sim.episodes.provenance import sha256, software, tree_sha256
 from nao_sim.episodes.see import database_of, see
-from nao_sim.gestures import library
+from nao_sim.gestures import library, mirrored
 from nao_sim.gestures.act import act
 from nao_sim.motion import MotionLog, Trajectory, perform
 from nao_sim.resources import resource
@@ -63,6 +63,15 @@ def answer_to(recognition: Recognition, mirror: bool = False) -> Answer:
     return Answer(name, mirror)
 
 
+def gesture_of(answer: Answer) -> Gesture | None:
+    """Return what the robot plays for an answer; a gesture that is its own twin, as *stop*, changes the hand."""
+    if answer.gesture is None:
+        return None
+    gesture = library()[answer.gesture]
+    own_twin = gesture.mirror == gesture.name
+    return mirrored(gesture) if answer.mirrored and own_twin else gesture
+
+
 def move(nao: Nao, gesture: Gesture | None) -> MotionLog:
     """Perform a gesture from standing, or stand still for ``STANDING_S`` seconds."""
     nao.reset("StandInit")
@@ -108,7 +117,7 @@ def imitate(
     answer = answer_to(recognition, mirror)
     nao = nao or Nao()
     begun = time.perf_counter()
-    motion = move(nao, library()[answer.gesture] if answer.gesture else None)
+    motion = move(nao, gesture_of(answer))
     timer.measure("move", begun)
     provenance = {
         "clip_sha256": sha256(Path(video)),

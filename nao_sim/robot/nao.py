@@ -157,7 +157,7 @@ class Nao:
 
     @property
     def fallen(self) -> bool:
-        """Whether the robot is down: something but its feet bears on the world, or the torso leans beyond 60°."""
+        """Whether the robot is down: something but its feet bears on the world, or the torso leans beyond 85°."""
         return self._falls.fallen(self.data)
 
     def step(self, n: int = 1) -> None:

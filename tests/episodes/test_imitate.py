@@ -12,7 +12,7 @@ import pytest
 from rerun.chunk import RrdReader
 
 from nao_sim.episodes import Episode, imitate, save_episode
-from nao_sim.episodes.imitate import answer_to, move
+from nao_sim.episodes.imitate import answer_to, gesture_of, move
 from nao_sim.episodes.outcome import measure, moving_joints, torso_tilt_rad
 from nao_sim.robot import ACTUATED, Nao, joint_table
 
@@ -52,6 +52,15 @@ def test_a_mirror_answers_with_the_other_hand(wave: tuple[Episode, Nao]) -> None
     recognition = wave[0].recognition
     assert answer_to(recognition).gesture == "bye_right"
     assert answer_to(recognition, mirror=True).gesture == "bye_left"
+
+
+def test_a_mirror_answers_stop_with_the_left_hand(wave: tuple[Episode, Nao]) -> None:
+    stop = dataclasses.replace(wave[0].recognition, label="stop")
+    for mirror, moving, still in ((False, "RElbowRoll", "LElbowRoll"), (True, "LElbowRoll", "RElbowRoll")):
+        gesture = gesture_of(answer_to(stop, mirror))
+        assert gesture is not None
+        assert moving in gesture.joints
+        assert still not in gesture.joints
 
 
 def test_what_is_rejected_does_not_move_the_robot(wave: tuple[Episode, Nao]) -> None:
