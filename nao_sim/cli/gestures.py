@@ -39,8 +39,9 @@ def _print(rows: list[dict[str, object]]) -> None:
     table = Table(box=None, header_style="bold", pad_edge=False)
     table.add_column("no.", justify="right")
     for heading in ("name", "family", "class"):
-        table.add_column(heading, no_wrap=True)
-    table.add_column("seconds", justify="right")
+        # A narrow terminal takes its room from the last column alone.
+        table.add_column(heading, min_width=max(len(str(row[heading])) for row in rows))
+    table.add_column("seconds", justify="right", min_width=len("seconds"))
     table.add_column("what it is", no_wrap=True, overflow="ellipsis")
     for row in rows:
         number = "" if row["number"] is None else str(row["number"])
