@@ -7,7 +7,7 @@ import math
 import cv2
 import numpy as np
 
-from recognizer.finder import Body, best_bodies, ranking, score_maps, template
+from recognizer.finder import Body, best_bodies, closer_look, closer_template, ranking, score_maps, template
 from recognizer.samples import Sample
 
 OBSERVED = (1, 6, 11, 16, 26, 36, 46, 56)  # samples on which the template is tried, until the person is found
@@ -20,7 +20,7 @@ LAST_CHANCE = 60  # samples after which the search ends in any case
 NAMES = (
     "template", "rank", "share_reach", "share_body", "density_body", "share_head", "density_head",
     "now_reach", "now_body", "now_density_body", "now_head", "now_density_head",
-    "size", "seen_again", "first",
+    "size", "seen_again", "first", "closer",
 )  # fmt: skip
 
 
@@ -31,7 +31,7 @@ class BodyFinder:
         self.body: Body | None = None
         self._flat: list[np.ndarray] = []
         self._moved: list[np.ndarray] = []
-        self._found: list[tuple[int, list[Body]]] = []
+        self._found: list[tuple[int, list[Body], np.ndarray]] = []
         self._last: Sample | None = None
 
     def observe(self, sample: Sample) -> None:
@@ -52,7 +52,9 @@ class BodyFinder:
 
     def _search(self, sample: Sample) -> None:
         height, width = sample.grey.shape
-        self._found.append((len(self._moved) - 1, best_bodies(score_maps(sample.grey, *template()), (width, height))))
+        found = best_bodies(score_maps(sample.grey, *template()), (width, height))
+        weights, offset = closer_template()
+        self._found.append((len(self._moved) - 1, found, closer_look(sample.grey, found) @ weights + offset))
 
     def decide(self) -> Body:
         """Choose among the candidates seen so far; the same answer whenever it is called again."""
@@ -69,21 +71,34 @@ class BodyFinder:
         return self.body
 
     def candidates(self) -> tuple[list[Body], np.ndarray]:
-        """Return the candidates and what is known of each, (n, 15), columns as in NAMES."""
+        """Return the candidates and what is known of each, (n, 32).
+
+        Columns are as in NAMES, then the same relative to the highest of the clip: what counts is to be
+        more like a person than the rest of the picture.
+        """
         assert self._last is not None
         grey = self._last.grey.shape
         scale = self._last.small.shape[1] / grey[1]
         whole = cv2.integral(np.mean(self._moved, axis=0).astype(np.float32))
         bodies, rows = [], []
-        for order, (number, found) in enumerate(self._found):
+        for order, (number, found, closer) in enumerate(self._found):
             near = np.mean(self._moved[max(0, number - 3) : number + 4], axis=0).astype(np.float32)
             now = cv2.integral(near)
             for rank, body in enumerate(found):
-                again = sum(any(_same(body, b) for b in others) for n, others in self._found if n != number)
+                again = sum(any(_same(body, b) for b in others) for n, others, _ in self._found if n != number)
                 known = [body.score, rank, *_motion(whole, body, scale), *_motion(now, body, scale)]
-                rows.append([*known, math.log(body.head / grey[0]), again / max(1, len(self._found) - 1), order == 0])
+                rows.append(
+                    [
+                        *known,
+                        math.log(body.head / grey[0]),
+                        again / max(1, len(self._found) - 1),
+                        order == 0,
+                        closer[rank],
+                    ]
+                )
                 bodies.append(body)
-        return bodies, np.array(rows, float).reshape(-1, len(NAMES))
+        table = np.array(rows, float).reshape(-1, len(NAMES))
+        return bodies, np.hstack([table, table - table.max(axis=0)])
 
 
 def _same(a: Body, b: Body) -> bool:

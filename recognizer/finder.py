@@ -22,6 +22,9 @@ WIDE, TALL = 13, 13  # cells of the template, 4.3 heads each way
 HEAD_AT = (6.0, 4.0)  # column and row of the head's centre in the template [cells]
 SMALLEST, LARGEST = 0.037, 0.5  # head heights searched, in image heights: a third of the image to close-up
 STEP = 2 ** (1 / 4)  # ratio of neighbouring levels
+FINE_HEAD = 9.0  # px: height of a head in the second, closer look
+FINE = 20  # cells of the closer look, 4.4 heads each way
+_FINE_RIM = 4  # cells around it, only for evening out the contrast
 _WEIGHTS = "head_shoulders.npz"
 
 
@@ -98,8 +101,13 @@ def template() -> tuple[np.ndarray, float]:
     return _stored()["weights"], float(_stored()["offset"])
 
 
+def closer_template() -> tuple[np.ndarray, float]:
+    """Return the weights (2800,) of the closer look and their offset."""
+    return _stored()["fine_weights"].ravel(), float(_stored()["fine_offset"])
+
+
 def ranking() -> tuple[np.ndarray, float]:
-    """Return the shipped weights (15,) that choose among candidates, and their offset."""
+    """Return the shipped weights that choose among candidates, and their offset."""
     return _stored()["rank_weights"], float(_stored()["rank_offset"])
 
 
@@ -117,7 +125,7 @@ def score_maps(grey: np.ndarray, weights: np.ndarray, offset: float) -> list[tup
     return out
 
 
-def best_bodies(maps: list[tuple[float, np.ndarray]], size: tuple[int, int], count: int = 8) -> list[Body]:
+def best_bodies(maps: list[tuple[float, np.ndarray]], size: tuple[int, int], count: int = 14) -> list[Body]:
     """Pick the highest, mutually distant scores; ``size`` is (width, height) of the image."""
     found: list[Body] = []
     for head, scores in maps:
@@ -131,6 +139,32 @@ def best_bodies(maps: list[tuple[float, np.ndarray]], size: tuple[int, int], cou
     for body in sorted(found, key=lambda b: -b.score):
         if len(kept) == count:
             break
-        if all(np.hypot(body.x - k.x, body.y - k.y) > 0.7 * max(body.head, k.head) for k in kept):
+        if not any(_overlap(body, other) for other in kept):
             kept.append(body)
     return kept
+
+
+def _overlap(a: Body, b: Body) -> bool:
+    """Same place and similar size; a face inside a head is another candidate."""
+    near = np.hypot(a.x - b.x, a.y - b.y) < 0.7 * max(a.head, b.head)
+    return bool(near) and abs(np.log(a.head / b.head)) < 0.4
+
+
+def closer_look(grey: np.ndarray, bodies: list[Body]) -> np.ndarray:
+    """Cells of a finer window around each candidate, (n, 2800) float32."""
+    return np.array([_fine_cells(grey, body) for body in bodies], np.float32).reshape(-1, FINE * FINE * CHANNELS)
+
+
+def _fine_cells(grey: np.ndarray, body: Body) -> np.ndarray:
+    side = (FINE + 2 * _FINE_RIM) * CELL
+    scale = body.head / FINE_HEAD
+    # The head's centre stands where it stands in the coarse template.
+    left = body.x - (HEAD_AT[0] + 0.5) / WIDE * FINE * CELL * scale - _FINE_RIM * CELL * scale
+    top = body.y - (HEAD_AT[1] + 0.5) / TALL * FINE * CELL * scale - _FINE_RIM * CELL * scale
+    size = max(2, round(side * scale))
+    crop = cv2.warpAffine(
+        grey, np.array([[1, 0, left], [0, 1, top]], np.float32), (size, size),
+        flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP, borderMode=cv2.BORDER_REPLICATE,
+    )  # fmt: skip
+    window = cv2.resize(crop, (side, side), interpolation=cv2.INTER_AREA if scale > 1 else cv2.INTER_LINEAR)
+    return cells(window)[_FINE_RIM:-_FINE_RIM, _FINE_RIM:-_FINE_RIM].ravel()
