@@ -86,7 +86,7 @@ def draw_room(rng: Generator, clutter: float) -> list[Item]:
     floor = str(rng.choice(["planks", "noise", "tiles", "plain"]))
     room = [
         Item(BOX, (0, 0, -0.1), (9, 9, 0.1), _colour(rng, 0.25, 0.75, 0.12), floor),
-        Item(BOX, (-depth - 0.1, 0, 1.6), (9, 3.0, 0.1), wall, texture, FACING),
+        Item(BOX, (-depth - 0.1, 0, 1.6), (12, 8, 0.1), wall, texture, FACING),
     ]
     if rng.random() < 0.3:  # a lower half of another colour, as on panelled or partitioned walls
         room.append(

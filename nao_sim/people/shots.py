@@ -98,7 +98,8 @@ def _frame(
     label: str, person: Person, aspect: float, table: dict[str, Any], rng: Generator
 ) -> tuple[str, Camera, float]:
     """Framing name, camera, and half of the width (m) seen at the person."""
-    open_to = {name: row for name, row in table["framing"].items() if label in row.get("only", [label])}
+    framings = {name: row | row.get("for", {}).get(label, {}) for name, row in table["framing"].items()}
+    open_to = {name: row for name, row in framings.items() if label in row.get("only", [label])}
     share = np.array([row["share"] for row in open_to.values()], dtype=float)
     name = list(open_to)[int(rng.choice(len(open_to), p=share / share.sum()))]
     row = open_to[name]
