@@ -22,9 +22,9 @@ _BLUR_STEPS = 3
 _SMALL = 240
 
 
-def roll(stage: Stage, shot: Shot) -> Iterator[Image]:
-    """Yield the BGR frames (h, w, 3) of ``shot``."""
-    scale = 2 if shot.width <= _SMALL else 1
+def roll(stage: Stage, shot: Shot, fine: bool = False) -> Iterator[Image]:
+    """Yield the BGR frames (h, w, 3) of ``shot``; ``fine`` ones are smoothed whatever their size."""
+    scale = 2 if fine or shot.width <= _SMALL else 1
     stage.set_size(shot.width * scale, shot.height * scale)
     stage.cast(shot.person, shot.outfit)
     stage.furnish(shot.room)
@@ -56,13 +56,13 @@ def exposed_angles(shot: Shot, times: Array) -> tuple[Array, list[int]]:
     return angles, [_BLUR_STEPS if moving else 1 for moving in fast]
 
 
-def write_clip(stage: Stage, shot: Shot, path: Path) -> None:
-    """Render ``shot`` to ``path`` as MJPG in AVI, atomically.
+def write_clip(stage: Stage, shot: Shot, path: Path, fine: bool = False) -> None:
+    """Render ``shot`` to ``path`` as MJPG in AVI, atomically; ``fine`` ones are smoothed and packed.
 
     Raises:
         FilmError: the encoder refuses.
         OSError: the disk does.
     """
-    with AviWriter(path, shot.width, shot.height, shot.fps, shot.sensor.quality) as writer:
-        for frame in roll(stage, shot):
+    with AviWriter(path, shot.width, shot.height, shot.fps, shot.sensor.quality, packed=fine) as writer:
+        for frame in roll(stage, shot, fine):
             writer.write(frame)

@@ -8,15 +8,26 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import mujoco
+import numpy as np
+from numpy.random import Generator
+
 from nao_sim.people.dataset import photo_row, shot_row
+from nao_sim.people.errors import FilmError
+from nao_sim.people.figure import skeleton
 from nao_sim.people.film import write_clip
 from nao_sim.people.manifest import write_manifest
 from nao_sim.people.motions import IRRELEVANT, motions
 from nao_sim.people.persons import Person
 from nao_sim.people.photos import DETAIL, Photo, draw_photo, postures, write_photo
-from nao_sim.people.shots import Shot, draw_cast, draw_shot
-from nao_sim.people.stage import Stage
+from nao_sim.people.rooms import Item, draw_room
+from nao_sim.people.shots import Shot, draw_cast, draw_shot, generator
+from nao_sim.people.stage import Light, Stage
+from nao_sim.people.surface import Array
 from nao_sim.resources import resource
+
+# Bodies that end where the person ends, and the offset (m) of that end, with 5 cm to spare.
+_ENDS = (("head", (0.0, 0.0, 0.25)), ("r_middle_3", (0.0, 0.0, -0.07)), ("l_middle_3", (0.0, 0.0, -0.07)))
 
 
 def samples_table() -> dict[str, Any]:
@@ -31,18 +42,68 @@ def sample_labels() -> list[str]:
 
 
 def sample_shot(label: str, take: int | None = None) -> Shot:
-    """A dynamic sample: the first take of fitting length and framing from ``take`` (by default the listed one) on."""
+    """A dynamic sample: the first take from ``take`` (by default the listed one) on that suits.
+
+    Person, camera and performance are those of the take; room, light and sensor are the clear ones of the table.
+
+    Raises:
+        FilmError: none of 400 takes has the length of a sample and keeps head and hands in the picture.
+    """
     table = samples_table()
+    table |= table["for"].get(label, {})
     person = _person(table, label)
     first = table["take"].get(label, 0) if take is None else take
-    shortest, longest = table["seconds"]
-    for number in range(first, first + 200):
-        shot = draw_shot(table["seed"], label, person, number)
-        if shot.framing == "half" and shortest <= shot.performance.seconds <= longest:
+    for number in range(first, first + 400):
+        shot = replace(draw_shot(table["seed"], label, person, number), width=table["width"], height=table["height"])
+        if _suits(shot, table):
             break
-    size = table | table.get("larger", {}).get(label, {})
-    sensor = replace(shot.sensor, quality=table["quality"], noise=table["noise"])
-    return replace(shot, sensor=sensor, width=size["width"], height=size["height"], fps=float(size["fps"]))
+    else:
+        raise FilmError(f"no take of '{label}' shows head and hands throughout; widen 'seconds' in samples.toml")
+    clear = {"gain": np.ones(3), "drift": np.zeros((0, 3)), "flicker": (0.0, 1.0), **table["sensor"]}
+    return replace(
+        shot,
+        room=_plain_room(table, generator(table["seed"], label, person.name, number, "sample")),
+        light=Light(**{name: tuple(value) for name, value in table["light"].items()}),
+        sensor=replace(shot.sensor, **clear),
+        fps=float(table["fps"]),
+    )
+
+
+def _plain_room(table: dict[str, Any], rng: Generator) -> list[Item]:
+    """A room whose floor and wall have no pattern: patterns take most of a small JPEG."""
+    while True:
+        room = draw_room(rng, table["clutter"])
+        if {item.texture for item in room[:2]} <= set(table["textures"]):
+            return room
+
+
+def _suits(shot: Shot, table: dict[str, Any]) -> bool:
+    """Whether the take is as long as a sample, its person large enough, and head and hands stay in the picture."""
+    shortest, longest = table["seconds"]
+    top = shot.camera.project(np.array([0.0, 0.0, shot.person.stature]))
+    foot = shot.camera.project(np.zeros(3))
+    if not shortest <= shot.performance.seconds <= longest or top[1] - foot[1] < 2 * table["fill"]:
+        return False
+    shown = np.abs(shot.camera.project(head_and_hands(shot))) <= (shot.width / shot.height, 1.0)
+    if shot.performance.walk is not None:  # comes in and goes out at the sides
+        return bool(shown[..., 1].all())
+    return bool(shown.all())
+
+
+def head_and_hands(shot: Shot, count: int = 24) -> Array:
+    """World positions (count, 3, 3) in m of the top of the head and the two middle finger tips, over the clip.
+
+    They are those of the person of 1.75 m scaled to the stature, a few centimetres off for other builds.
+    """
+    model = skeleton().compile()
+    data = mujoco.MjData(model)
+    ends = [(data.body(name), offset) for name, offset in _ENDS]
+    places = []
+    for angles in shot.performance.angles(np.linspace(0, shot.performance.seconds, count)):
+        data.qpos[:] = angles
+        mujoco.mj_kinematics(model, data)
+        places.append([body.xpos + body.xmat.reshape(3, 3) @ offset for body, offset in ends])
+    return np.array(places) * shot.person.stature / 1.75
 
 
 def sample_photo(label: str, take: int | None = None) -> Photo:
@@ -68,7 +129,7 @@ def film_samples(out: Path) -> Iterator[str]:
     with Stage() as stage:
         for label in (label for label in sample_labels() if label not in static):
             shot = sample_shot(label)
-            write_clip(stage, shot, out / f"{label}.avi")
+            write_clip(stage, shot, out / f"{label}.avi", fine=True)
             rows.append(shot_row(f"{label}.avi", shot))
             yield f"{label}.avi"
     with Stage(DETAIL) as stage:

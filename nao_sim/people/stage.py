@@ -35,6 +35,21 @@ class Camera:
     fovy_deg: float
     roll_deg: float = 0.0
 
+    def frame(self) -> Array:
+        """The camera's axes in the world as columns (3, 3): right, up and backwards."""
+        back = np.subtract(self.pos, self.aim)
+        back /= np.linalg.norm(back)
+        right = np.cross([0.0, 0.0, 1.0], back)
+        right /= np.linalg.norm(right)
+        roll = np.radians(self.roll_deg)
+        turned = np.cos(roll) * right + np.sin(roll) * np.cross(back, right)
+        return np.stack([turned, np.cross(back, turned), back], axis=1)
+
+    def project(self, points: Array) -> Array:
+        """Where world points (..., 3) in m appear (..., 2): right and up of the centre, in half image heights."""
+        seen = np.subtract(points, self.pos) @ self.frame()
+        return np.asarray(seen[..., :2] / -seen[..., 2:] / np.tan(np.radians(self.fovy_deg) / 2))
+
 
 @dataclass(frozen=True)
 class Light:
@@ -141,16 +156,8 @@ class Stage:
     def aim(self, camera: Camera) -> None:
         """Place the camera."""
         model, k = self.model, self._view.fixedcamid
-        back = np.subtract(camera.pos, camera.aim)
-        back /= np.linalg.norm(back)
-        right = np.cross([0.0, 0.0, 1.0], back)
-        right /= np.linalg.norm(right)
-        up = np.cross(back, right)
-        roll = np.radians(camera.roll_deg)
-        turned = np.cos(roll) * right + np.sin(roll) * up
-        frame = np.stack([turned, np.cross(back, turned), back], axis=1)
         model.cam_pos[k], model.cam_fovy[k] = camera.pos, camera.fovy_deg
-        mujoco.mju_mat2Quat(model.cam_quat[k], frame.ravel())
+        mujoco.mju_mat2Quat(model.cam_quat[k], camera.frame().ravel())
 
     def room_image(self) -> Image:
         """Render the empty room with shadows and keep it as the background; RGB (h, w, 3), the first row at the top."""

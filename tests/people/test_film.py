@@ -13,7 +13,7 @@ from nao_sim.people.errors import FilmError
 from nao_sim.people.film import roll
 from nao_sim.people.manifest import known_labels, read_manifest
 from nao_sim.people.photos import draw_photo, take_photo
-from nao_sim.people.samples import sample_labels, sample_photo, sample_shot
+from nao_sim.people.samples import head_and_hands, sample_labels, sample_photo, sample_shot
 from nao_sim.people.shots import cameras, draw_cast, draw_shot
 from nao_sim.resources import resource
 
@@ -121,6 +121,35 @@ def test_samples_in_the_assets_are_what_the_command_makes(stage):
     assert shown.shape == made.shape
     # JPEG at low quality, and another version of Mesa, may differ by a little.
     assert np.abs(shown.astype(int) - made).mean() < 8
+
+
+def test_samples_are_small_and_show_head_and_hands():
+    folder = resource("assets", "clips")
+    assert sum(path.stat().st_size for path in folder.iterdir()) < 620_000
+    for label in sample_labels()[:4]:
+        shot = sample_shot(label)
+        places = shot.camera.project(head_and_hands(shot))
+        assert (np.abs(places) <= [shot.width / shot.height, 1]).all(), label
+
+
+def test_points_are_projected_to_where_they_are_rendered(stage):
+    shot = sample_shot("right_arm_up")
+    stage.set_size(shot.width, shot.height)
+    stage.cast(shot.person, shot.outfit)
+    stage.furnish(shot.room)
+    stage.light(shot.light)
+    stage.aim(shot.camera)
+    room = stage.room_image().astype(int)
+    angles = shot.performance.angles(np.array([shot.performance.seconds]))[0]
+    person = np.abs(stage.image(angles).astype(int) - room).max(axis=2) > 8
+    for body in ("head", "r_forearm", "pelvis", "l_hand"):
+        right, up = shot.camera.project(stage.body_position(angles, body))
+        row = round(shot.height / 2 * (1 - up))
+        column = round(shot.width / 2 + shot.height / 2 * right)
+        assert person[row - 1 : row + 2, column - 1 : column + 2].any(), body
+    rows = np.flatnonzero(person.any(axis=1))
+    tip = shot.camera.project(head_and_hands(shot)[-1])[:, 1].max()
+    assert rows[0] == pytest.approx(shot.height / 2 * (1 - tip), abs=8)
 
 
 def test_sample_photos_are_what_the_command_makes(stage):
