@@ -1,13 +1,15 @@
-# make setup   the environment, in .venv
-# make demo    the main job on a sample clip
-# make test    the test suite
-# make check   style, types, import contract
+# make setup     the environment, in .venv
+# make demo      the main job on a sample clip
+# make test      the test suite
+# make check     style, types, import contract
+# make assets    film the sample clips again
+# make database  film the data set (2,600 clips) and train the shipped database of dynamic gestures on it
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 DONE   := $(VENV)/.installed
 
-.PHONY: setup demo test check clean
+.PHONY: setup demo test check assets database clean
 
 setup: $(DONE)
 
@@ -28,6 +30,13 @@ check: $(DONE)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+assets: $(DONE)
+	$(BIN)/nao-sim film --samples --out assets/clips
+
+database: $(DONE)
+	$(BIN)/nao-sim film --out build/set --persons 40 --takes 3 --irrelevant 800 --seed 2
+	$(BIN)/nao-sim train build/set --out assets/databases/dynamic.parquet
 
 clean:
 	rm -rf $(VENV) demo build dist
