@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 
 import typer
@@ -52,12 +53,21 @@ def _user_errors() -> tuple[type[Exception], ...]:
     return (NaoSimError, RecognizerError, OSError)
 
 
+def _line(error: Exception) -> str:
+    """Say an error in one line; what the system says of a file gets a mend."""
+    if isinstance(error, OSError) and error.filename is not None and not isinstance(error, NaoSimError):
+        return f"{error.filename}: {error.strerror}; choose another place or check its permissions"
+    return " ".join(str(error).split())
+
+
 def main() -> None:
     """Run the command line; errors a user can mend are one line on standard error, exit code 2."""
+    # OpenCV's own warnings would come before our one line; it reads this when it is first imported.
+    os.environ.setdefault("OPENCV_LOG_LEVEL", "ERROR")
     asked = sys.argv[1] if len(sys.argv) > 1 else ""
     names = [asked] if asked in COMMANDS else sorted(COMMANDS)
     try:
         _app(names)()
     except _user_errors() as error:
-        typer.echo(f"nao-sim: {' '.join(str(error).split())}", err=True)
+        typer.echo(f"nao-sim: {_line(error)}", err=True)
         raise SystemExit(EXIT_ERROR) from None

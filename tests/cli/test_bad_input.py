@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import errno
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -78,6 +80,22 @@ def test_unusable_clip(nao_sim: Run, tmp_path: Path, make: Callable[[Path], Path
     assert ran.err.startswith("nao-sim: ")
     assert clip.name in ran.err
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_nothing_but_the_line_reaches_the_terminal(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", "from nao_sim.cli import main; main()", "imitate", str(text(tmp_path))]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (ran.returncode, ran.stdout) == (2, "")
+    assert ran.stderr.count("\n") == 1, ran.stderr
+    assert "notes.mp4" in ran.stderr
+
+
+def test_a_place_that_the_system_refuses_is_named(nao_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    ran = nao_sim("film", "--out", tmp_path / "file" / "set", "--persons", 1, "--takes", 1)
+    assert ran.code == 2
+    assert ran.err.count("\n") == 1
+    assert "choose another place" in ran.err
 
 
 @pytest.mark.parametrize(
