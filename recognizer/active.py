@@ -12,6 +12,10 @@ PHASES = 5  # as many as the thesis's consecutive states
 STILL = 0.35  # head heights per second: slower is sway or noise
 TRIMMED = (0.01, 0.985)  # share of all motion that begins and ends the active part
 
+GRID_X, GRID_Y = WHOLE.grid()
+HEAD_X, HEAD_Y = HEAD.grid()
+_TORSO = ((np.abs(GRID_X) < 0.7) & (GRID_Y > 1.3) & (GRID_Y < 3.0)).astype(np.float32)
+
 
 @dataclasses.dataclass(frozen=True)
 class Active:
@@ -21,6 +25,7 @@ class Active:
         u, v: (n, h, w) velocity [head heights per second] in the window WHOLE, 0 where slower than STILL.
         speed: (n, h, w) their magnitude.
         head: (n, 2, h', w') velocity in the window HEAD, not thresholded.
+        torso: (n, 2) mean velocity of chest and belly, not thresholded.
         pictures: (n, h, w) windows with even contrast.
         seconds: (n,) duration of each step.
         first, last: steps first … last-1 are active.
@@ -32,6 +37,7 @@ class Active:
     v: np.ndarray
     speed: np.ndarray
     head: np.ndarray
+    torso: np.ndarray
     pictures: np.ndarray
     seconds: np.ndarray
     first: int
@@ -63,6 +69,7 @@ def active_part(steps: list[Step]) -> Active:
         np.where(moving, flow[:, 1], 0),
         speed,
         np.array([step.head_flow for step in steps]),
+        flow.reshape(n, 2, -1) @ (_TORSO.ravel() / _TORSO.sum()),
         np.array([step.picture for step in steps]),
         seconds,
         first,
@@ -78,7 +85,3 @@ def _phases(first: int, last: int, n: int) -> np.ndarray:
     step = np.arange(n)
     overlap = np.minimum(step + 1, edges[1:, None]) - np.maximum(step, edges[:-1, None])
     return overlap.clip(0, 1).astype(np.float32)
-
-
-GRID_X, GRID_Y = WHOLE.grid()
-HEAD_X, HEAD_Y = HEAD.grid()

@@ -22,6 +22,7 @@ VERSION = 1
 ROWS, COLUMNS = 8, 10  # cells of one head height over the window
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
+SWAY_SECONDS = 0.7  # slower motion of the head is sway, a nod or shake is quicker
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
 Item = tuple[str, np.ndarray]
@@ -142,17 +143,30 @@ def _head(active: Active) -> Iterator[Item]:
     flat = part.reshape(len(part), 2, -1)
     mean = flat @ (face / face.sum())
     amount = (np.abs(flat) @ (face / face.sum()) * seconds[:, None]).sum(axis=0)
+    # Who sways takes head and chest along; a nod is the head's own.
+    own = mean - active.torso[active.first : active.last]
     for axis in (0, 1):
         yield f"head_rhythm_{'xy'[axis]}", np.array(_signal(4 * mean[:, axis], active.period))
-    swing = mean.std(axis=0)
-    yield "head_amount", np.log(np.concatenate([amount, swing]) + 0.02)
-    yield (
-        "head_axis",
-        np.array([math.log((amount[1] + 0.02) / (amount[0] + 0.02)), math.log((swing[1] + 0.02) / (swing[0] + 0.02))]),
+        yield f"head_rhythm_own_{'xy'[axis]}", np.array(_signal(4 * own[:, axis], active.period))
+    quick = own - _running_mean(own, max(1, round(SWAY_SECONDS / active.period)))
+    sizes = np.concatenate(
+        [amount + 0.02, mean.std(axis=0) + 0.02, quick.std(axis=0) + 0.02, np.abs(quick).max(axis=0) + 0.05]
     )
+    yield "head_amount", np.log(sizes)
+    yield "head_axis", np.log(sizes[1::2] / sizes[::2])
     cells = np.abs(part).reshape(len(part), 2, 3, 14, 3, 14).mean(axis=(3, 5))
     cells = np.einsum("t,tdyx->dyx", seconds, cells)
     yield "head_cells", np.sqrt(cells / (cells.sum() + 0.1))
+
+
+def _running_mean(values: np.ndarray, steps: int) -> np.ndarray:
+    """Mean over a window of about ``steps`` values around each, (n, 2)."""
+    window = np.ones(min(steps, len(values)) | 1)
+    covered = np.convolve(np.ones(len(values)), window, "same")
+    return (
+        np.column_stack([np.convolve(column, window, "same")[: len(values)] for column in values.T])
+        / covered[: len(values), None]
+    )
 
 
 def _whole_image(regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> Iterator[Item]:
@@ -180,7 +194,7 @@ def vector(items: list[Item]) -> np.ndarray:
     return np.concatenate([np.ravel(values) for _, values in items]).astype(np.float32)
 
 
-def _blank() -> list[Item]:
+def blank() -> list[Item]:
     """Features of a clip in which nothing moves: their names and number."""
     zero = np.zeros((2, 64, 80), np.float32)
     steps = [Step(0.1 * i, 0.1, zero[0], zero, np.zeros((2, 42, 42), np.float32)) for i in range(1, 8)]
@@ -189,5 +203,5 @@ def _blank() -> list[Item]:
 
 def names() -> tuple[str, ...]:
     """Name of every feature, in order."""
-    groups = ([f"{name}_{i}" for i in range(np.size(values))] for name, values in _blank())
+    groups = ([f"{name}_{i}" for i in range(np.size(values))] for name, values in blank())
     return tuple(itertools.chain.from_iterable(groups))

@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 from recognizer.errors import DatabaseError
 
 IRRELEVANT = "irrelevant"  # family and label of motions that must not be answered
-_LEVELS = 65535  # features are stored in 16 bits of their own range
+_LEVELS = 255  # features are stored in [0, 1] of their own range, in 8 bits
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,6 +33,7 @@ class Database:
         names: (d,) names of the features.
         method: name of the feature extractor.
         version: its version; a database of another version is refused.
+        mirror: label -> label of the same motion with left and right exchanged.
         provenance: how it was made (command, data set, seeds, scores), JSON-able.
         arrays: what was learned from the rows (projection, threshold …), by name.
     """
@@ -46,6 +47,7 @@ class Database:
     names: tuple[str, ...]
     method: str
     version: int
+    mirror: dict[str, str] = dataclasses.field(default_factory=dict)
     provenance: dict[str, Any] = dataclasses.field(default_factory=dict)
     arrays: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
 
@@ -82,10 +84,10 @@ class Database:
         """
         low = self.features.min(axis=0).astype(np.float64)
         span = np.maximum(self.features.max(axis=0) - low, 1e-12)
-        codes = np.round((self.features - low) / span * _LEVELS).astype(np.uint16)
+        codes = np.round((self.features - low) / span * _LEVELS).astype(np.uint8)
         vectors = pa.FixedSizeListArray.from_arrays(pa.array(codes.ravel()), codes.shape[1])
         text = {name: pa.array(getattr(self, name).tolist(), pa.string()) for name in _TEXT}
-        header = {"method": self.method, "version": self.version, "names": self.names, "provenance": self.provenance}
+        header = {name: getattr(self, name) for name in _HEADER}
         packed = io.BytesIO()
         arrays: dict[str, Any] = {"low": low, "span": span, **{f"_{k}": v for k, v in self.arrays.items()}}
         np.savez_compressed(packed, **arrays)
@@ -124,17 +126,13 @@ class Database:
             features = (codes / _LEVELS * arrays.pop("span") + arrays.pop("low")).astype(np.float32)
         except (pa.ArrowException, KeyError, ValueError, OSError, EOFError) as error:
             raise DatabaseError(f"{file} is not a feature database ({type(error).__name__}); train it again") from None
+        header["names"] = tuple(header["names"])
         learned = {name[1:]: value for name, value in arrays.items()}
-        names = tuple(header["names"])
         return cls(
-            features,
-            **text,
-            names=names,
-            method=header["method"],
-            version=header["version"],
-            provenance=header["provenance"],
-            arrays=learned,
-        )
+            features, **text, names=header["names"], method=header["method"], version=header["version"],
+            mirror=header["mirror"], provenance=header["provenance"], arrays=learned,
+        )  # fmt: skip
 
 
+_HEADER = ("method", "version", "names", "mirror", "provenance")
 _TEXT = ("labels", "families", "actions", "persons", "sources")

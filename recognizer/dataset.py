@@ -109,6 +109,7 @@ def build_database(
     jobs: int = 2,
     progress: Callable[[int, int], None] | None = None,
     provenance: dict[str, Any] | None = None,
+    mirror: dict[str, str] | None = None,
 ) -> tuple[Database, list[str]]:
     """Describe all clips of a data set.
 
@@ -119,6 +120,7 @@ def build_database(
         jobs: processes.
         progress: called with clips done and their number.
         provenance: what to write down about how it was made.
+        mirror: gesture label -> label of the mirrored motion; empty when left and right are not exchanged.
 
     Returns:
         The database, and one line for each clip that could not be used.
@@ -153,6 +155,7 @@ def build_database(
             names=extractor.names,
             method=method,
             version=extractor.version,
+            mirror=mirror or {},
             provenance=provenance or {},
         ),
         problems,

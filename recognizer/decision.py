@@ -1,4 +1,4 @@
-"""From neighbours to an answer or a rejection; the same for every method."""
+"""From neighbours to an answer or a rejection."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from recognizer.database import IRRELEVANT, Database
+from recognizer.database import Database
 from recognizer.neighbours import votes_of
 
 SHOWN = 5  # neighbours reported
@@ -29,18 +29,18 @@ class Decision:
 
     Attributes:
         label: the gesture, None when rejected.
-        nearest: the gesture with most votes even when rejected; None when only irrelevant motion is near.
-        family: family of ``nearest``, or "irrelevant".
+        nearest: the gesture that would be the answer, even when rejected.
+        family: family of ``nearest``.
         rejected: True when no gesture of the vocabulary was seen.
         reason: why it was rejected, empty otherwise.
-        distance: distance to the nearest row with the winning label.
+        distance: what the threshold is compared with; small is sure.
         threshold: distance beyond which a gesture is rejected.
         votes: label -> share of the votes.
         neighbours: nearest first.
     """
 
     label: str | None
-    nearest: str | None
+    nearest: str
     family: str
     rejected: bool
     reason: str
@@ -59,7 +59,7 @@ def decide(
     vote: str = "majority",
     power: float = 1.0,
 ) -> Decision:
-    """Vote among the nearest rows and reject what is irrelevant or too far.
+    """Vote among the nearest rows and reject what is too far.
 
     Args:
         database: where the rows are.
@@ -77,22 +77,16 @@ def decide(
     first = int(np.flatnonzero(database.labels[rows] == winner)[0])
     distance = float(distances[first])
     neighbours = tuple(
-        _neighbour(database, int(row), float(d)) for row, d in zip(rows[:SHOWN], distances[:SHOWN], strict=True)
+        neighbour(database, int(row), float(d)) for row, d in zip(rows[:SHOWN], distances[:SHOWN], strict=True)
     )
-    if winner == IRRELEVANT:
-        action = str(database.actions[rows[first]])
-        reason = f"nearest is irrelevant motion ({action}) at {distance:.3g}"
-    elif distance > threshold:
-        reason = f"nearest is {winner} at distance {distance:.3g}, beyond {threshold:.3g}"
-    else:
-        reason = ""
-    nearest = None if winner == IRRELEVANT else winner
+    far = distance > threshold
+    reason = f"nearest is {winner} at distance {distance:.3g}, beyond {threshold:.3g}" if far else ""
     family = str(database.families[rows[first]])
-    label = None if reason else winner
-    return Decision(label, nearest, family, bool(reason), reason, distance, threshold, shares, neighbours)
+    return Decision(None if far else winner, winner, family, far, reason, distance, threshold, shares, neighbours)
 
 
-def _neighbour(database: Database, row: int, distance: float) -> Neighbour:
+def neighbour(database: Database, row: int, distance: float) -> Neighbour:
+    """Describe one row of a database."""
     columns = (database.labels, database.actions, database.persons, database.sources)
     label, action, person, source = (str(column[row]) for column in columns)
     return Neighbour(label, action, person, source, distance)

@@ -25,7 +25,8 @@ class Evaluation:
         method, protocol: what was evaluated, and how.
         labels: (n,) true labels, "irrelevant" among them.
         families: (n,) true families.
-        nearest: (n,) best gesture, rejected or not; "irrelevant" when irrelevant motion was nearest.
+        nearest: (n,) best gesture, rejected or not.
+        routed: (n,) family it was taken for, small or large.
         rejected: (n,) bool.
         persons, sources, actions: (n,) of each clip.
         by_k: k -> share of gestures named rightly when k neighbours vote.
@@ -56,9 +57,13 @@ class Evaluation:
     def summary(self) -> dict[str, float]:
         """The rows of the table of results, as shares."""
         known = self.gestures
-        out = {f"{family} amplitude": self.score(self.families == family) for family in ("small", "large")}
-        out |= {label: self.score(self.labels == label) for label in ("yes", "no")}
-        out["routing"] = float(np.mean(self.routed[known] == self.families[known]))
+        if "static" in self.families:
+            out = {label: self.score(self.labels == label) for label in sorted(set(self.labels[known].tolist()))}
+            out = {"all postures": self.score()} | out
+        else:
+            out = {f"{family} amplitude": self.score(self.families == family) for family in ("small", "large")}
+            out |= {label: self.score(self.labels == label) for label in ("yes", "no")}
+            out["routing"] = float(np.mean(self.routed[known] == self.families[known]))
         out["false rejection"] = float(np.mean(self.rejected[known]))
         if (~known).any():
             out["irrelevant rejected"] = float(np.mean(self.rejected[~known]))
@@ -109,7 +114,7 @@ def evaluate(
         for row in test:
             vector = database.features[row]
             decision = model.decide(vector)
-            nearest[row], routed[row] = decision.nearest or IRRELEVANT, model.route(vector)
+            nearest[row], routed[row] = decision.nearest, decision.family
             rejected[row] = decision.rejected
             for k in KS:
                 right[k][row] = model.decide(vector, k=k).nearest == database.labels[row]

@@ -15,8 +15,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-COLOURS = {"thesis": "#8a8a8a", "body": "#1f6fb4"}
-FAMILIES = ("small", "large")
+COLOURS = {"thesis": "#8a8a8a", "body": "#1f6fb4", "thesis_static": "#8a8a8a", "static": "#1f6fb4"}
+FAMILIES = {"small": "small amplitude", "large": "large amplitude", "static": "hand postures"}
 
 
 def draw_figures(evaluations: Sequence[Evaluation], folder: Path) -> list[Path]:
@@ -33,15 +33,23 @@ def draw_figures(evaluations: Sequence[Evaluation], folder: Path) -> list[Path]:
         ("score_against_k", _against_k),
         ("misclassified", _misclassified),
     ):
-        figure, axes = plt.subplots(1, 1 if name == "score_against_k" else 2, figsize=(12, 5), squeeze=False)
+        panels = 1 if name == "score_against_k" else len(_families(evaluations))
+        figure, axes = plt.subplots(1, panels, figsize=(12, 5), squeeze=False)
         painter(list(axes[0]), evaluations)
         made.append(_save(figure, folder / f"{name}.png"))
     for evaluation in evaluations:
-        figure, axes = plt.subplots(1, 2, figsize=(15, 7))
-        for axis, family in zip(axes, FAMILIES, strict=True):
+        families = _families(evaluations)
+        figure, axes = plt.subplots(1, len(families), figsize=(7.5 * len(families), 7), squeeze=False)
+        for axis, family in zip(axes[0], families, strict=True):
             _confusion(axis, evaluation, family)
         made.append(_save(figure, folder / f"confusion_{evaluation.method}.png"))
     return made
+
+
+def _families(evaluations: Sequence[Evaluation]) -> list[str]:
+    """Return the families in the data set: moving gestures of small and large amplitude, or static postures."""
+    present = {family for e in evaluations for family in e.families.tolist()}
+    return [family for family in FAMILIES if family in present]
 
 
 def _save(figure: plt.Figure, path: Path) -> Path:
@@ -52,7 +60,7 @@ def _save(figure: plt.Figure, path: Path) -> Path:
 
 
 def _scores(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
-    for axis, family in zip(axes, FAMILIES, strict=True):
+    for axis, family in zip(axes, _families(evaluations), strict=True):
         labels = sorted({label for e in evaluations for label in e.labels[e.families == family].tolist()})
         width = 0.8 / len(evaluations)
         for i, e in enumerate(evaluations):
@@ -61,7 +69,7 @@ def _scores(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
             places = np.arange(len(labels)) + (i - (len(evaluations) - 1) / 2) * width
             axis.bar(places, scores, width, color=COLOURS[e.method], label=f"{e.method}: mean {mean:.1%}")
         axis.set(
-            title=f"{family} amplitude: score per gesture, {evaluations[0].protocol}", ylim=(0, 1.02), ylabel="score"
+            title=f"{FAMILIES[family]}: score per gesture, {evaluations[0].protocol}", ylim=(0, 1.02), ylabel="score"
         )
         axis.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
         axis.legend(loc="lower right")
@@ -77,14 +85,14 @@ def _against_k(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
 
 def _misclassified(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
     """How often each label is answered; the red line is how often it ought to be."""
-    for axis, family in zip(axes, FAMILIES, strict=True):
+    for axis, family in zip(axes, _families(evaluations), strict=True):
         labels = sorted({label for e in evaluations for label in e.labels[e.families == family].tolist()})
         for i, e in enumerate(evaluations):
             answered = [np.mean(e.nearest[e.gestures] == label) for label in labels]
             axis.plot(np.arange(len(labels)) + 0.04 * i, answered, "o", color=COLOURS[e.method], label=e.method)
         ideal = [np.mean(evaluations[0].labels[evaluations[0].gestures] == label) for label in labels]
         axis.plot(range(len(labels)), ideal, "r-", label="ideal")
-        axis.set(title=f"{family} amplitude: share of all answers", ylim=(0, None), ylabel="share")
+        axis.set(title=f"{FAMILIES[family]}: share of all answers", ylim=(0, None), ylabel="share")
         axis.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
         axis.legend()
 
@@ -109,4 +117,4 @@ def _confusion(axis: Axes, evaluation: Evaluation, family: str) -> None:
     columns = [*labels, f"other or {IRRELEVANT}"]
     axis.set_xticks(range(len(columns)), columns, rotation=40, ha="right")
     axis.set_yticks(range(len(labels)), labels)
-    axis.set(title=f"{evaluation.method}, {family} amplitude", xlabel="answered", ylabel="true")
+    axis.set(title=f"{evaluation.method}, {FAMILIES[family]}", xlabel="answered", ylabel="true")

@@ -80,11 +80,12 @@ class Recognition:
 
     Attributes:
         label: the gesture, None when rejected.
-        nearest: the best guess even when rejected; None when it was irrelevant motion.
-        family: "small", "large", "static" or "irrelevant".
+        nearest: the best guess, even when rejected.
+        family: "small", "large" or "static", of ``nearest``.
         rejected: no gesture of the vocabulary.
         reason: why rejected, with the distance; empty otherwise.
-        distance: to the nearest database row of the winning label.
+        distance: to the nearest rows of that gesture; by the default method relative to irrelevant motion
+            (1 = as far as that).
         threshold: distance beyond which a gesture is rejected.
         votes: label -> share of the votes.
         neighbours: nearest rows of the database, nearest first.
@@ -98,7 +99,7 @@ class Recognition:
     """
 
     label: str | None
-    nearest: str | None
+    nearest: str
     family: str
     rejected: bool
     reason: str

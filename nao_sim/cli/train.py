@@ -14,15 +14,22 @@ import typer
 def train(
     dataset: Annotated[Path, typer.Argument(help="folder with manifest.parquet or manifest.csv")],
     out: Annotated[Path, typer.Option(help="database to write (.parquet)")],
-    method: Annotated[str, typer.Option(help="how a clip is described: body, or thesis")] = "body",
+    method: Annotated[
+        str | None, typer.Option(help="description: body or thesis, of photos static or thesis_static")
+    ] = None,
     jobs: Annotated[int, typer.Option(help="processes")] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False,
 ) -> None:
     """Describe every clip of DATASET and write the database that recognises gestures."""
     from rich.console import Console
 
+    from nao_sim.cli.photos import is_photo_set, train_photos
     from recognizer import Recognizer
 
+    if is_photo_set(dataset):
+        train_photos(dataset, out, method or "static", as_json)
+        return
+    method = method or "body"
     console = Console(stderr=as_json)
     database, problems = described(dataset, method, jobs)
     recognizer = Recognizer.fit(database)
@@ -68,6 +75,7 @@ def described(dataset: Path, method: str, jobs: int) -> tuple[Any, list[str]]:
             jobs,
             lambda done, total: show("describing clips", done, total),
             _provenance(dataset, method),
+            {name: entry.mirror for name, entry in vocabulary().items() if name in families},
         )
 
 

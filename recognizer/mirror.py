@@ -1,0 +1,96 @@
+"""What a feature vector becomes when the clip is mirrored: a permutation with signs, so no clip is read twice.
+
+A mirrored clip is as true as the original; its gesture is the mirror twin of the vocabulary. The model learns from
+both, which doubles the data and makes left and right treated alike.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+
+import numpy as np
+
+from recognizer.active import PHASES
+from recognizer.body_features import blank
+from recognizer.database import IRRELEVANT, Database
+
+_OPPOSITE = {"right": "left", "left": "right", "right_side": "left_side", "left_side": "right_side"}
+
+
+@functools.cache
+def mirror_map() -> tuple[np.ndarray, np.ndarray]:
+    """Return ``source`` and ``sign``, both (d,): ``mirrored = sign * vector[source]``."""
+    groups = {name: np.shape(values) for name, values in blank()}
+    sizes = {name: int(np.prod(shape)) for name, shape in groups.items()}
+    start = dict(zip(groups, np.cumsum([0, *sizes.values()]), strict=False))
+    sources, signs = [], []
+    for name, shape in groups.items():
+        inside, sign = _within(name, shape)
+        sources.append(start[_twin(name)] + inside.ravel())
+        signs.append(sign.ravel())
+    return np.concatenate(sources), np.concatenate(signs)
+
+
+def mirrored(vectors: np.ndarray) -> np.ndarray:
+    """Feature vectors (n, d) of the mirrored clips."""
+    source, sign = mirror_map()
+    return vectors[:, source] * sign
+
+
+def with_mirrored(database: Database) -> Database:
+    """Return the database with a mirrored row after all its rows.
+
+    The twin of a gesture that the database does not know (``left_arm_up``) is irrelevant motion. A database
+    without mirror labels is returned as it is.
+    """
+    if not database.mirror:
+        return database
+    family = dict(zip(database.labels.tolist(), database.families.tolist(), strict=True))
+    twins = np.array([database.mirror.get(label, label) for label in database.labels.tolist()])
+    known = np.isin(twins, list(family))
+    labels = np.where(known, twins, IRRELEVANT)
+    relevant = database.labels != IRRELEVANT
+    return dataclasses.replace(
+        database,
+        features=np.concatenate([database.features, mirrored(database.features)]),
+        labels=np.concatenate([database.labels, labels]),
+        families=np.concatenate([database.families, [family.get(label, IRRELEVANT) for label in labels.tolist()]]),
+        actions=np.concatenate([database.actions, np.where(relevant, twins, database.actions)]),
+        persons=np.tile(database.persons, 2),
+        sources=np.concatenate([database.sources, np.char.add(database.sources, " mirrored")]),
+    )
+
+
+def _twin(name: str) -> str:
+    """The group that describes the other side."""
+    for prefix in ("path_", "circulation_"):
+        if name.startswith(prefix):
+            side = name.removeprefix(prefix)
+            return prefix + _OPPOSITE.get(side, side)
+    if name.startswith("rhythm_"):
+        side, axis = name.removeprefix("rhythm_").rsplit("_", 1)
+        return f"rhythm_{_OPPOSITE.get(side, side)}_{axis}"
+    return name
+
+
+def _within(name: str, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Order and signs inside one group."""
+    order = np.arange(int(np.prod(shape))).reshape(shape)
+    sign = np.ones(shape)
+    if name == "flow_phase":  # phase, way, row, column; ways are right, left, down, up
+        order = order[:, [1, 0, 2, 3], :, ::-1]
+    elif name == "flow":
+        order = order[[1, 0, 2, 3], :, ::-1]
+    elif name.startswith("changed_") or name == "head_cells":
+        order = order[..., ::-1]
+    elif name.startswith(("rhythm_", "head_rhythm_")) and name.endswith("_x"):
+        sign[-1] = -1  # net direction
+    elif name.startswith("circulation_"):
+        sign[:] = -1
+    elif name.startswith("path_"):  # x, y, spreads and amount of each phase, then the steps of x and of y
+        sign[:PHASES] = -1
+        sign[5 * PHASES : 6 * PHASES - 1] = -1
+    elif name == "image_path":
+        sign[[0, 4, 8, 10, 11]] = -1
+    return order, sign
