@@ -13,7 +13,10 @@ import typer
 def evaluate(
     dataset: Annotated[Path, typer.Argument(help="data set folder, or a database (.parquet) made by train")],
     protocol: Annotated[str, typer.Option(help="loo-person or k-fold")] = "loo-person",
-    methods: Annotated[str, typer.Option(help="methods to compare, separated by commas")] = "body",
+    methods: Annotated[
+        str | None,
+        typer.Option(help="methods to compare, separated by commas; body, of photos thesis_static,static if left out"),
+    ] = None,
     figures: Annotated[Path | None, typer.Option(help="folder for the figures of results")] = None,
     jobs: Annotated[int, typer.Option(help="processes")] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False,
@@ -21,21 +24,13 @@ def evaluate(
     """Score DATASET by models that never saw the person (or clip) they answer for."""
     from rich.console import Console
 
-    from nao_sim.cli.progress import stages
-    from nao_sim.cli.train import described
-    from recognizer import Database
-    from recognizer.evaluation import evaluate as score
+    from nao_sim.cli import photos
 
     console = Console(stderr=as_json)
-    evaluations = []
-    for method in methods.split(","):
-        if dataset.is_file():
-            database = Database.load(dataset)
-        else:
-            database, _ = described(dataset, method.strip(), jobs)
-        with stages(as_json) as show:
-            name = f"{protocol}, {database.method}"
-            evaluations.append(score(database, protocol, functools.partial(show, name)))
+    if photos.is_photo_set(dataset):
+        evaluations = photos.evaluate_photos(dataset, protocol, methods or photos.METHODS, as_json)
+    else:
+        evaluations = _of_clips(dataset, protocol, methods or "body", jobs, as_json)
     if figures is not None:
         from recognizer.figures import draw_figures
 
@@ -45,6 +40,24 @@ def evaluate(
         typer.echo(json.dumps({e.method: {**e.summary(), "by_k": e.by_k} for e in evaluations}))
     else:
         _print(console, evaluations)
+
+
+def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bool) -> list[Any]:
+    from nao_sim.cli.progress import stages
+    from nao_sim.cli.train import described
+    from recognizer import Database
+    from recognizer.evaluation import evaluate as score
+
+    evaluations = []
+    for method in methods.split(","):
+        if dataset.is_file():
+            database = Database.load(dataset)
+        else:
+            database, _ = described(dataset, method.strip(), jobs)
+        with stages(as_json) as show:
+            name = f"{protocol}, {database.method}"
+            evaluations.append(score(database, protocol, functools.partial(show, name)))
+    return evaluations
 
 
 def _print(console: Any, evaluations: list[Any]) -> None:

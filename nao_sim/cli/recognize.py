@@ -20,12 +20,16 @@ def recognize(
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
 ) -> None:
     """Name the gesture of VIDEO, or say that it is none of the known ones."""
+    from nao_sim.cli.photos import recognize_photo
     from nao_sim.cli.progress import stages
     from nao_sim.resources import resource
     from recognizer import Recognizer, open_clip, parse_frame_range
 
     clip = open_clip(video, parse_frame_range(frames) if frames else None)
     labels = [name.strip() for name in among.split(",")] if among else None
+    if clip.still:
+        _show([recognize_photo(video, database, labels, explain)], as_json, False)
+        return
     recognizer = Recognizer.load(database or resource("assets", "databases", "dynamic.parquet"))
     with stages(hidden=as_json) as show:
         update = functools.partial(show, "reading frames")
@@ -38,6 +42,10 @@ def recognize(
 
         for number, answer in enumerate(answers, 1):
             draw(answer, explain / f"{number:02d}" if every else explain)
+    _show(answers, as_json, every)
+
+
+def _show(answers: list[Any], as_json: bool, every: bool) -> None:
     if as_json:
         plain = [answer.to_dict() for answer in answers]
         typer.echo(json.dumps(plain if every else plain[0]))

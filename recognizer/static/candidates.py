@@ -1,7 +1,8 @@
 """Everything in a photo that may be a hand: objects of several segmentations, each looked at closely.
 
 The skin box of eq. 1 after Gray-World comes first; without Gray-World and the departure from a plain background stand
-in where light or skin defeat it. Which candidate is the hand is decided later, by its distance to known hands.
+in where light or skin defeat it. Where a person is in view, hands are looked for off the head (`person`). Which
+candidate is the hand is decided later, by its distance to known hands.
 """
 
 from __future__ import annotations
@@ -12,11 +13,13 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from recognizer.finder import Body
 from recognizer.static import background
-from recognizer.static.errors import NoSkinError
+from recognizer.static.errors import HandTooSmallError, NoHandError, NoSkinError
 from recognizer.static.hand import most_featured
 from recognizer.static.noise import clean
 from recognizer.static.palm import HandFrame, hand_frames
+from recognizer.static.person import HAND, SMALLEST, find_person, look_closer, places
 from recognizer.static.skin import gray_world, gray_world_gains, skin_mask
 from recognizer.static.types import Floats, Image, Mask
 
@@ -25,6 +28,7 @@ MOST_OBJECTS = 4  # of one segmentation
 SMALLEST_OBJECT = 0.004  # of the picture's area
 CLOSER = 0.6  # of the longer side: smaller objects are cut out of the photo and looked at in detail
 PLAIN = 0.7  # share of the border that one smooth colour surface must explain
+ARM = 3.0  # hand lengths: longer than a hand with its forearm
 TOO_MUCH = 0.8  # of the picture's area: then the background was taken for skin
 
 
@@ -32,8 +36,8 @@ TOO_MUCH = 0.8  # of the picture's area: then the background was taken for skin
 class Candidate:
     """One object that may be a hand, with one guess of which way it points."""
 
-    segmentation: str  # "skin", "skin without Gray-World" or "background"
-    number: int  # of the object within its segmentation; the most hand-like by feature pixels is 0
+    segmentation: str  # "skin", "skin without Gray-World", "background" or "person"
+    number: int  # of the object within its segmentation; the likeliest hand is 0
     image: Image  # (h, w, 3) what the mask belongs to: the photo or a cut-out of it, at working size
     mask: Mask  # (h, w)
     frame: HandFrame
@@ -56,6 +60,42 @@ def candidates(bgr: Image) -> list[Candidate]:
 
     Raises:
         NoSkinError: no segmentation finds an object.
+        NoHandError: a person is in view, but no raised hand, or too small a one.
+    """
+    person = find_person(bgr)
+    return close_up(bgr) if person is None else of_person(bgr, person)
+
+
+def of_person(bgr: Image, person: Body) -> list[Candidate]:
+    """Return the hands of a person in view, and objects larger than an arm: they would belong to no such person."""
+    height, width = bgr.shape[:2]
+    size = np.array([width, height, width, height])
+    arm = ARM * HAND * person.head
+    try:
+        found = [c for c in close_up(bgr) if max((c.box * size)[2:]) > arm]
+    except NoSkinError:
+        found = []
+    hands = places(bgr, person) if HAND * person.head >= SMALLEST else []
+    found += [
+        Candidate("person", number, close.image, close.mask, close.frame, close.window / size)
+        for number, place in enumerate(hands)
+        for close in look_closer(bgr, place)
+    ]
+    if found:
+        return found
+    if HAND * person.head < SMALLEST:
+        raise HandTooSmallError(
+            f"the hand is about {HAND * person.head:.0f} pixels long, too small to tell its fingers apart; "
+            f"come closer, so that it has {SMALLEST} at least"
+        )
+    raise NoHandError("a person is in view, but no raised hand off the face; show the hand beside the head")
+
+
+def close_up(bgr: Image) -> list[Candidate]:
+    """Return every object of every segmentation, wherever it is.
+
+    Raises:
+        NoSkinError: there is none.
     """
     work = to_work_size(bgr)
     gains = gray_world_gains(work)

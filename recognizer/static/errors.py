@@ -15,3 +15,7 @@ class NoSkinError(PhotoError):
 
 class NoHandError(PhotoError):
     """There is skin, but nothing of it has the shape of a hand."""
+
+
+class HandTooSmallError(NoHandError):
+    """A person is in view, but so far away that the hand's fingers cannot be told apart."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +10,12 @@ from sklearn.model_selection import GroupKFold
 
 from recognizer.database import IRRELEVANT, Database
 from recognizer.dataset import Entry
+from recognizer.evaluation import KS, Evaluation, folds
 from recognizer.static.errors import PhotoError
 from recognizer.static.methods import method_of
 from recognizer.static.recognise import PhotoRecognizer
+
+GROUPS = 10  # of persons: leaving out one person of a hundred at a time would learn a hundred models
 
 
 @dataclass(frozen=True)
@@ -57,23 +60,61 @@ class Score:
         return labels, counts
 
 
-def on_unknown_persons(database: Database, folds: int = 10) -> Score:
-    """Return the score of a database on itself, every person answered by the others alone.
+def evaluate(
+    database: Database, protocol: str = "loo-person", progress: Callable[[int, int], None] | None = None
+) -> Evaluation:
+    """Answer every photo of a database by a model that was not shown it, for tables and figures.
 
     Args:
-        database: of postures.
-        folds: groups of persons; at least as many persons are needed.
+        database: of postures, by either method. Photos in which no hand was found are not in it.
+        protocol: "loo-person" (no person in both parts; more than 10 persons are left out in 10 groups) or "k-fold".
+        progress: called with folds done and their number.
+
+    Raises:
+        DatabaseError: unknown protocol, or too few persons or photos for it.
     """
-    answer = np.full(len(database), IRRELEVANT, dtype=object)
-    nearest = answer.copy()
-    split = GroupKFold(folds).split(database.features, database.labels, database.persons)
-    for train, test in split:
+    n = len(database)
+    nearest, rejected = np.full(n, IRRELEVANT, dtype=object), np.zeros(n, bool)
+    right = {k: np.zeros(n, bool) for k in KS}
+    splits = list(_splits(database, protocol))
+    for number, (train, test) in enumerate(splits, 1):
         model = method_of(database).model().fit(database.take(train))
         for row in test:
-            decision = model.decide(database.features[row].astype(float))
-            answer[row] = decision.label or IRRELEVANT
-            nearest[row] = decision.nearest or IRRELEVANT
-    return Score(database.labels.astype(str), answer.astype(str), nearest.astype(str))
+            vector = database.features[row].astype(float)
+            decision = model.decide(vector)
+            nearest[row], rejected[row] = decision.nearest or IRRELEVANT, decision.rejected
+            for k in KS:
+                right[k][row] = model.decide(vector, k=k).nearest == database.labels[row]
+        if progress is not None:
+            progress(number, len(splits))
+    known = database.labels != IRRELEVANT
+    return Evaluation(
+        method=database.method,
+        protocol=protocol,
+        labels=database.labels,
+        families=database.families,
+        nearest=nearest.astype(str),
+        routed=database.families,
+        rejected=rejected,
+        persons=database.persons,
+        sources=database.sources,
+        actions=database.actions,
+        by_k={k: float(np.mean(right[k][known])) for k in KS},
+    )
+
+
+def _splits(database: Database, protocol: str) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    persons = len(np.unique(database.persons))
+    if protocol == "loo-person" and persons > GROUPS:
+        yield from GroupKFold(GROUPS).split(database.features, database.labels, database.persons)
+    else:
+        yield from folds(database, protocol)
+
+
+def on_unknown_persons(database: Database) -> Score:
+    """Return the score of a database on itself, every person answered by others alone."""
+    found = evaluate(database)
+    return Score(found.labels.astype(str), np.where(found.rejected, IRRELEVANT, found.nearest), found.nearest)
 
 
 def on_photos(

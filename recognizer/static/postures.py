@@ -133,8 +133,8 @@ class PostureModel:
         """Return the database with the threshold kept in it."""
         return dataclasses.replace(self.database, arrays={"threshold": np.array(self.threshold_)})
 
-    def decide(self, vector: Floats, among: set[str] | None = None) -> Decision:
-        """Name one posture vector; ``among`` narrows the labels (irrelevant hands stay possible)."""
+    def decide(self, vector: Floats, among: set[str] | None = None, k: int | None = None) -> Decision:
+        """Name one posture vector; ``among`` narrows the labels (irrelevant hands stay possible), ``k`` the votes."""
         distances, rows = self.classifier.kneighbors(vector[None], len(self.database))
         far, order = distances[0], rows[0]
         far = np.where(self.database.labels[order] == IRRELEVANT, far * IRRELEVANT_COST, far)
@@ -143,7 +143,7 @@ class PostureModel:
             far, order = far[keep], order[keep]
         again = np.argsort(far, kind="stable")
         far, order = far[again], order[again]
-        k = self.classifier.n_neighbors
+        k = k or self.classifier.n_neighbors
         return decide(self.database, order[: 4 * k], far[: 4 * k], k, self.threshold_)
 
 

@@ -15,15 +15,16 @@ from recognizer.errors import DatabaseError
 from recognizer.recognition import Recognition
 from recognizer.static import baseline, descriptors
 from recognizer.static.candidates import Candidate, candidates
-from recognizer.static.errors import NoHandError
+from recognizer.static.errors import HandTooSmallError, NoHandError
 from recognizer.static.methods import method_of
 from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.types import Image
 
 # Distances of less likely guesses count this much more, so that they win only where the likely one is poor.
-SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.4, "background": 1.4}
+SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.4, "background": 1.4, "person": 1.0}
 REJECTED_COST = 1.3  # something that is a posture is rather the hand meant than something that is none
 TILT_COST = 0.3  # added to 1 for a hand pointing down, where no arm leaves the picture to say so
+BESIDE_A_PERSON = 1.6  # where a person raises a hand, an object too large for it is rather furniture
 SAME_PLACE = 0.3  # overlap of boxes from which two candidates are one object
 NO_HAND = 2.5  # thresholds: an object further than this from every hand is no hand
 
@@ -99,7 +100,10 @@ class PhotoRecognizer:
         """Return what the neighbours say of the best hand, and warnings."""
         if self.method.name == baseline.METHOD:
             return self.model.decide(baseline.vector(image), among), ()
-        seen = self.look(image, among)
+        try:
+            seen = self.look(image, among)
+        except HandTooSmallError as error:
+            return self._not_seen(str(error)), ()
         best = seen[0]
         if best.decision.distance > NO_HAND * self.model.threshold_:
             raise NoHandError(
@@ -108,14 +112,21 @@ class PhotoRecognizer:
             )
         return best.decision, _warnings(seen)
 
+    def _not_seen(self, reason: str) -> Decision:
+        return Decision(None, None, IRRELEVANT, True, reason, float("inf"), self.model.threshold_, {}, ())
+
     def look(self, image: Image, among: set[str] | None = None) -> list[Seen]:
         """Return all candidates of a photo, the best hand first."""
         seen = []
-        for candidate in candidates(image):
+        found = candidates(image)
+        in_view = any(candidate.segmentation == "person" for candidate in found)
+        for candidate in found:
             decision = self.model.decide(descriptors.describe(candidate.mask, candidate.frame), among)
             nearest = decision.neighbours[0].distance
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
+            if in_view and candidate.segmentation != "person":
+                cost *= BESIDE_A_PERSON
             seen.append(Seen(candidate, decision, float(cost * (REJECTED_COST if decision.rejected else 1.0))))
         seen.sort(key=lambda s: s.cost)
         return _posture_first(seen)
@@ -137,7 +148,14 @@ def _posture_first(seen: list[Seen]) -> list[Seen]:
     first = seen[0]
     if not first.decision.rejected:
         return seen
-    elsewhere = [s for s in seen if not s.decision.rejected and _overlap(s, first) < SAME_PLACE]
+    person = first.candidate.segmentation == "person"
+    elsewhere = [
+        s
+        for s in seen
+        if not s.decision.rejected
+        and _overlap(s, first) < SAME_PLACE
+        and person == (s.candidate.segmentation == "person")
+    ]
     return [elsewhere[0], *(s for s in seen if s is not elsewhere[0])] if elsewhere else seen
 
 
