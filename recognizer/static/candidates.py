@@ -19,7 +19,7 @@ from recognizer.static.errors import HandTooSmallError, NoHandError, NoSkinError
 from recognizer.static.hand import most_featured
 from recognizer.static.noise import clean
 from recognizer.static.palm import HandFrame, hand_frames
-from recognizer.static.person import HAND, SMALLEST, find_person, look_closer, places
+from recognizer.static.person import CERTAIN, HAND, SMALLEST, find_person, look_closer, places
 from recognizer.static.skin import gray_world, gray_world_gains, skin_mask
 from recognizer.static.types import Floats, Image, Mask
 
@@ -67,12 +67,16 @@ def candidates(bgr: Image) -> list[Candidate]:
 
 
 def of_person(bgr: Image, person: Body) -> list[Candidate]:
-    """Return the hands of a person in view, and objects larger than an arm: they would belong to no such person."""
+    """Return the hands of a person in view.
+
+    Where the person is in doubt, so are objects larger than an arm: they would belong to no such person.
+    """
     height, width = bgr.shape[:2]
     size = np.array([width, height, width, height])
     arm = ARM * HAND * person.head
     try:
-        found = [c for c in close_up(bgr) if max((c.box * size)[2:]) > arm]
+        doubtful = person.score < CERTAIN
+        found = [c for c in close_up(bgr) if max((c.box * size)[2:]) > arm] if doubtful else []
     except NoSkinError:
         found = []
     hands = places(bgr, person) if HAND * person.head >= SMALLEST else []

@@ -21,6 +21,7 @@ from recognizer.static.types import Floats, Image, Mask
 
 SEARCH_ROWS = 240  # rows at which the head is looked for
 SURE = 0.4  # score of the template from which a head is believed
+CERTAIN = 0.9  # score from which it is no part of a close-up that happens to look like a head
 HEAD_SHARE = (0.09, 0.27)  # height of a head in picture heights: smaller is noise, larger is no person in view
 HAND = 0.95  # length of a hand over the height of a head as the finder measures it
 REACH = (2.5, 0.7, 1.0)  # heads sideways, up and down from the head's centre where a raised hand can be
@@ -36,9 +37,9 @@ WINDOW_SIDE = 200  # pixels it is enlarged to
 CORE = 0.09  # hand lengths around the palm's middle that are hand for sure
 # What a hand is like at the size that the head tells: palm radius in hand lengths, share of the window that it fills
 # (with some forearm), and how far the palm may be from where it was looked for, in hand lengths.
-PALM_RADIUS = (0.12, 0.28)
-FILLED = (0.06, 0.22)
-STRAYED = 0.22
+PALM_RADIUS = (0.12, 0.3)
+FILLED = (0.06, 0.25)
+STRAYED = 0.25
 UPRIGHT = np.radians(70)
 COLOUR_SCALE = (22.0, 5.0, 5.0)  # Lab: hand and face are lit differently, more so than they are coloured differently
 
