@@ -118,7 +118,8 @@ class Database:
         try:
             table = pq.read_table(file)
             meta = table.schema.metadata or {}
-            header = json.loads(meta[b"recognizer"])
+            written = json.loads(meta[b"recognizer"])
+            header = {name: written[name] for name in _HEADER}
             with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
                 arrays = {name: packed[name] for name in packed.files}
             codes = table["features"].combine_chunks().flatten().to_numpy().reshape(len(table), len(header["names"]))
@@ -128,10 +129,7 @@ class Database:
             raise DatabaseError(f"{file} is not a feature database ({type(error).__name__}); train it again") from None
         header["names"] = tuple(header["names"])
         learned = {name[1:]: value for name, value in arrays.items()}
-        return cls(
-            features, **text, names=header["names"], method=header["method"], version=header["version"],
-            mirror=header["mirror"], provenance=header["provenance"], arrays=learned,
-        )  # fmt: skip
+        return cls(features=features, **text, **header, arrays=learned)
 
 
 _HEADER = ("method", "version", "names", "mirror", "provenance")
