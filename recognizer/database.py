@@ -119,7 +119,7 @@ class Database:
             table = pq.read_table(file)
             meta = table.schema.metadata or {}
             written = json.loads(meta[b"recognizer"])
-            header = {name: written[name] for name in _HEADER}
+            header: dict[str, Any] = {name: written[name] for name in _HEADER}
             with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
                 arrays = {name: packed[name] for name in packed.files}
             codes = table["features"].combine_chunks().flatten().to_numpy().reshape(len(table), len(header["names"]))

@@ -113,7 +113,7 @@ class PhotoRecognizer:
         return best.decision, _warnings(seen)
 
     def _not_seen(self, reason: str) -> Decision:
-        return Decision(None, None, IRRELEVANT, True, reason, float("inf"), self.model.threshold_, {}, ())
+        return Decision(None, IRRELEVANT, IRRELEVANT, True, reason, float("inf"), self.model.threshold_, {}, ())
 
     def look(self, image: Image, among: set[str] | None = None) -> list[Seen]:
         """Return all candidates of a photo, the best hand first."""
