@@ -9,7 +9,7 @@ from recognizer.database import Database
 from recognizer.errors import DatabaseError
 from recognizer.neighbours import NeighbourClassifier
 from recognizer.static import baseline, descriptors
-from recognizer.static.candidates import Candidate, candidates
+from recognizer.static.candidates import Candidate, close_up
 from recognizer.static.palm import HandFrame
 from recognizer.static.postures import PostureModel
 from recognizer.static.types import Floats, Image
@@ -27,8 +27,8 @@ class StaticMethod:
 
 
 def posture_vector(image: Image) -> Floats:
-    """Return our vector of the likeliest hand of a photo, (872,)."""
-    found: list[Candidate] = candidates(image)
+    """Return our vector of the likeliest hand of a close-up, (872,); databases are learnt from close-ups."""
+    found: list[Candidate] = close_up(image)
     same = [c for c in found if (c.segmentation, c.number) == (found[0].segmentation, found[0].number)]
     return descriptors.describe(same[0].mask, nearest_upright([c.frame for c in same]))
 

@@ -21,7 +21,7 @@ from recognizer.static.types import Floats, Image, Mask
 
 SEARCH_ROWS = 240  # rows at which the head is looked for
 SURE = 0.4  # score of the template from which a head is believed
-CERTAIN = 0.9  # score from which it is no part of a close-up that happens to look like a head
+CERTAIN = 1.0  # score from which it is no part of a close-up that happens to look like a head
 HEAD_SHARE = (0.09, 0.27)  # height of a head in picture heights: smaller is noise, larger is no person in view
 HAND = 0.95  # length of a hand over the height of a head as the finder measures it
 REACH = (2.5, 0.7, 1.0)  # heads sideways, up and down from the head's centre where a raised hand can be

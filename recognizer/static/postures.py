@@ -144,7 +144,12 @@ class PostureModel:
         again = np.argsort(far, kind="stable")
         far, order = far[again], order[again]
         k = k or self.classifier.n_neighbors
-        return decide(self.database, order[: 4 * k], far[: 4 * k], k, self.threshold_)
+        found = decide(self.database, order[: 4 * k], far[: 4 * k], k, self.threshold_)
+        if found.nearest != IRRELEVANT:
+            return found
+        action = next(n.action for n in found.neighbours if n.label == IRRELEVANT)
+        reason = f"nearest is a hand that shows none of the postures ({action}) at {found.distance:.3g}"
+        return dataclasses.replace(found, label=None, rejected=True, reason=reason)
 
 
 def _kinds(database: Database) -> np.ndarray:
