@@ -123,7 +123,7 @@ class Database:
             with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
                 arrays = {name: packed[name] for name in packed.files}
             codes = table["features"].combine_chunks().flatten().to_numpy().reshape(len(table), len(header["names"]))
-            text = {name: np.array(table[name].to_pylist(), dtype=str) for name in _TEXT}
+            text: dict[str, Any] = {name: np.array(table[name].to_pylist(), dtype=str) for name in _TEXT}
             features = (codes / _LEVELS * arrays.pop("span") + arrays.pop("low")).astype(np.float32)
         except (pa.ArrowException, KeyError, ValueError, OSError, EOFError) as error:
             raise DatabaseError(f"{file} is not a feature database ({type(error).__name__}); train it again") from None
