@@ -24,7 +24,6 @@ from recognizer.static.types import Image
 SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.4, "background": 1.4, "person": 1.0}
 REJECTED_COST = 1.3  # something that is a posture is rather the hand meant than something that is none
 TILT_COST = 0.3  # added to 1 for a hand pointing down, where no arm leaves the picture to say so
-BESIDE_A_PERSON = 1.6  # where a person raises a hand, an object too large for it is rather furniture
 SAME_PLACE = 0.3  # overlap of boxes from which two candidates are one object
 NO_HAND = 2.5  # thresholds: an object further than this from every hand is no hand
 
@@ -118,15 +117,11 @@ class PhotoRecognizer:
     def look(self, image: Image, among: set[str] | None = None) -> list[Seen]:
         """Return all candidates of a photo, the best hand first."""
         seen = []
-        found = candidates(image)
-        in_view = any(candidate.segmentation == "person" for candidate in found)
-        for candidate in found:
+        for candidate in candidates(image):
             decision = self.model.decide(descriptors.describe(candidate.mask, candidate.frame), among)
             nearest = decision.neighbours[0].distance
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
-            if in_view and candidate.segmentation != "person":
-                cost *= BESIDE_A_PERSON
             seen.append(Seen(candidate, decision, float(cost * (REJECTED_COST if decision.rejected else 1.0))))
         seen.sort(key=lambda s: s.cost)
         return _posture_first(seen)
@@ -148,14 +143,7 @@ def _posture_first(seen: list[Seen]) -> list[Seen]:
     first = seen[0]
     if not first.decision.rejected:
         return seen
-    person = first.candidate.segmentation == "person"
-    elsewhere = [
-        s
-        for s in seen
-        if not s.decision.rejected
-        and _overlap(s, first) < SAME_PLACE
-        and person == (s.candidate.segmentation == "person")
-    ]
+    elsewhere = [s for s in seen if not s.decision.rejected and _overlap(s, first) < SAME_PLACE]
     return [elsewhere[0], *(s for s in seen if s is not elsewhere[0])] if elsewhere else seen
 
 
