@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 
 import numpy as np
 
-from recognizer.window import HEAD, WHOLE, Step
+from recognizer.window import Step
 
 PHASES = 5  # as many as the thesis's consecutive states
-STILL = 0.35  # head heights per second: slower is sway or noise
 TRIMMED = (0.01, 0.985)  # share of all motion that begins and ends the active part
-
-GRID_X, GRID_Y = WHOLE.grid()
-HEAD_X, HEAD_Y = HEAD.grid()
-_TORSO = ((np.abs(GRID_X) < 0.7) & (GRID_Y > 1.3) & (GRID_Y < 3.0)).astype(np.float32)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -22,10 +18,8 @@ class Active:
     """The steps of a clip as arrays, with its active part.
 
     Attributes:
-        u, v: (n, h, w) velocity [head heights per second] in the window WHOLE, 0 where slower than STILL.
-        speed: (n, h, w) their magnitude.
-        head: (n, 2, h', w') velocity in the window HEAD, not thresholded.
-        torso: (n, 2) mean velocity of chest and belly, not thresholded.
+        u, v, speed, ways, torso: as in :class:`Step`, (n, …).
+        head: (n, 2, h, w) velocity in the window HEAD.
         pictures: (n, h, w) windows with even contrast.
         seconds: (n,) duration of each step.
         first, last: steps first … last-1 are active.
@@ -36,6 +30,7 @@ class Active:
     u: np.ndarray
     v: np.ndarray
     speed: np.ndarray
+    ways: np.ndarray
     head: np.ndarray
     torso: np.ndarray
     pictures: np.ndarray
@@ -45,7 +40,7 @@ class Active:
     phases: np.ndarray
     moved: float
 
-    @property
+    @functools.cached_property
     def period(self) -> float:
         """Typical duration of a step [s]."""
         return float(np.median(self.seconds))
@@ -54,10 +49,8 @@ class Active:
 def active_part(steps: list[Step]) -> Active:
     """Stack steps and find the active part: where all but the first and last per cent of the motion happens."""
     flow = np.array([step.flow for step in steps])
+    speed = np.array([step.speed for step in steps])
     seconds = np.array([step.seconds for step in steps], np.float32)
-    speed = np.hypot(flow[:, 0], flow[:, 1])
-    moving = speed > STILL
-    speed = np.where(moving, speed, 0)
     moved = speed.mean(axis=(1, 2)) * seconds
     total = float(moved.sum())
     along = np.cumsum(moved) / (total + 1e-6)
@@ -65,11 +58,12 @@ def active_part(steps: list[Step]) -> Active:
     last = min(int(np.searchsorted(along, TRIMMED[1])) + 1, n)
     first = min(int(np.searchsorted(along, TRIMMED[0])), last - 1)
     return Active(
-        np.where(moving, flow[:, 0], 0),
-        np.where(moving, flow[:, 1], 0),
+        flow[:, 0],
+        flow[:, 1],
         speed,
+        np.array([step.ways for step in steps]),
         np.array([step.head_flow for step in steps]),
-        flow.reshape(n, 2, -1) @ (_TORSO.ravel() / _TORSO.sum()),
+        np.array([step.torso for step in steps]),
         np.array([step.picture for step in steps]),
         seconds,
         first,

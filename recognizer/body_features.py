@@ -12,26 +12,20 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from recognizer.active import GRID_X, GRID_Y, HEAD_X, HEAD_Y, PHASES, Active, active_part
+from recognizer.active import PHASES, Active, active_part
 from recognizer.amplitude import MovingRegions
 from recognizer.finder import Body
-from recognizer.window import Step
+from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, ROWS, Step, cell_means, make_step
 
 METHOD = "body"
 VERSION = 1
-ROWS, COLUMNS = 8, 10  # cells of one head height over the window
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
 SWAY_SECONDS = 0.7  # slower motion of the head is sway, a nod or shake is quicker
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
+HEAD_X, HEAD_Y = HEAD.grid()
 Item = tuple[str, np.ndarray]
-
-
-def cell_means(maps: np.ndarray) -> np.ndarray:
-    """Mean over each cell of maps (…, 64, 80): (…, 8, 10)."""
-    *lead, height, width = maps.shape
-    return maps.reshape(*lead, ROWS, height // ROWS, COLUMNS, width // COLUMNS).mean(axis=(-3, -1))
 
 
 def describe(steps: list[Step], regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> list[Item]:
@@ -59,8 +53,7 @@ def describe(steps: list[Step], regions: list[MovingRegions], body: Body, size: 
 
 def _flow_maps(active: Active) -> Iterator[Item]:
     """Motion to the right, left, down and up: on coarse cells in each phase, on fine cells over the clip."""
-    ways = np.stack([np.maximum(f, 0) for f in (active.u, -active.u, active.v, -active.v)], axis=1)
-    fine = np.einsum("pt,tdyx->pdyx", active.phases, cell_means(ways))
+    fine = np.einsum("pt,tdyx->pdyx", active.phases, active.ways)
     coarse = fine.reshape(PHASES, 4, ROWS // 2, 2, COLUMNS // 2, 2).mean(axis=(3, 5))
     yield "flow_phase", np.sqrt(coarse / (fine.sum() + 0.5))
     yield "flow", np.sqrt(fine.sum(axis=0))
@@ -197,7 +190,8 @@ def vector(items: list[Item]) -> np.ndarray:
 def blank() -> list[Item]:
     """Features of a clip in which nothing moves: their names and number."""
     zero = np.zeros((2, 64, 80), np.float32)
-    steps = [Step(0.1 * i, 0.1, zero[0], zero, np.zeros((2, 42, 42), np.float32)) for i in range(1, 8)]
+    head = np.zeros((2, *HEAD_X.shape), np.float32)
+    steps = [make_step(0.1 * i, 0.1, zero[0], zero, head) for i in range(1, 8)]
     return describe(steps, [], Body(40, 40, 10, 0), (320, 240))
 
 

@@ -48,7 +48,7 @@ class BodyModel:
         self.rows = with_mirrored(database)
         stored = database.arrays
         if "components" in stored:
-            self._measure(stored["mean"], stored["scale"], stored["components"])
+            self._measure(stored["mean"], stored["scale"], stored["components"].astype(np.float32))
             self.limit_ = float(stored["limit"])
             return self
         self._learn_metric()
@@ -80,7 +80,7 @@ class BodyModel:
         return {
             "mean": self._mean.astype(np.float32),
             "scale": self._scale.astype(np.float32),
-            "components": self._components.astype(np.float32),
+            "components": self._components.astype(np.float16),
             "limit": np.array(self.limit_),
         }
 

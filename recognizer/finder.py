@@ -56,13 +56,18 @@ def cells(grey: np.ndarray) -> np.ndarray:
     scale = 1.0 / np.sqrt(cv2.blur(energy, (25, 25)) + 30.0)
     magnitude = np.sqrt(energy) * scale
     np.minimum(magnitude, 3.0, out=magnitude)
-    angle = cv2.phase(gx, gy) * (BINS / np.pi)
+    angle = cv2.phase(gx, gy)
+    np.multiply(angle, BINS / np.pi, out=angle)
+    np.subtract(angle, BINS, out=angle, where=angle >= BINS)
     height, width = grey.shape
     rows, columns = height // CELL, width // CELL
     planes = []
     for b in range(BINS):
-        near = np.abs((angle - b + BINS / 2) % BINS - BINS / 2)
-        planes.append(magnitude * np.maximum(0.0, 1.0 - near))
+        # Only the first bin's neighbour lies beyond the end of the scale.
+        apart = np.abs(angle - b) if b else np.minimum(angle, BINS - angle)
+        share = np.subtract(1.0, apart, out=apart)
+        np.maximum(share, 0.0, out=share)
+        planes.append(np.multiply(share, magnitude, out=share))
     planes.append(magnitude)
     size = (columns, rows)
     return np.dstack(

@@ -45,6 +45,11 @@ class View:
 
 WHOLE = View(8, -5.0, 5.0, -3.25, 4.75)  # arms at full reach
 HEAD = View(24, -0.875, 0.875, -0.875, 0.875)  # fine enough to see a nod
+STILL = 0.35  # head heights per second: slower is sway or noise
+ROWS, COLUMNS = 8, 10  # cells of one head height over the window WHOLE
+GRID_X, GRID_Y = WHOLE.grid()
+_CHEST = (np.abs(GRID_X) < 0.7) & (GRID_Y > 1.3) & (GRID_Y < 3.0)
+_TORSO = (_CHEST / _CHEST.sum()).ravel().astype(np.float32)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,14 +60,21 @@ class Step:
         time: seconds.
         seconds: since the sample before.
         picture: (64, 80) float32, the window with its contrast evened out.
-        flow: (2, 64, 80) velocity right and down in the window WHOLE [head heights per second].
-        head_flow: (2, 42, 42) the same in the window HEAD.
+        flow: (2, 64, 80) velocity right and down in the window WHOLE [head heights per second], 0 where slower
+            than STILL.
+        speed: (64, 80) its magnitude.
+        ways: (4, 8, 10) motion right, left, down and up, mean over cells of one head height.
+        torso: (2,) mean velocity of chest and belly, slow motion included.
+        head_flow: (2, 42, 42) velocity in the window HEAD, slow motion included.
     """
 
     time: float
     seconds: float
     picture: np.ndarray
     flow: np.ndarray
+    speed: np.ndarray
+    ways: np.ndarray
+    torso: np.ndarray
     head_flow: np.ndarray
 
 
@@ -83,7 +95,23 @@ class Windows:
         seconds = sample.time - before[0]
         flow = np.stack(coarse_to_fine(before[1], whole)) / np.float32(WHOLE.pixels * seconds)
         head_flow = np.stack(coarse_to_fine(before[2], head)) / np.float32(HEAD.pixels * seconds)
-        return Step(sample.time, seconds, whole, flow, head_flow)
+        return make_step(sample.time, seconds, whole, flow, head_flow)
+
+
+def make_step(time: float, seconds: float, picture: np.ndarray, flow: np.ndarray, head_flow: np.ndarray) -> Step:
+    """Work out the rest of a step from its flow, as it is measured."""
+    speed = np.sqrt(flow[0] * flow[0] + flow[1] * flow[1])
+    torso = flow.reshape(2, -1) @ _TORSO
+    moving = (speed > STILL).astype(np.float32)
+    flow, speed = flow * moving, speed * moving
+    ways = np.stack([np.maximum(f, 0) for f in (flow[0], -flow[0], flow[1], -flow[1])])
+    return Step(time, seconds, picture, flow, speed, cell_means(ways), torso, head_flow)
+
+
+def cell_means(maps: np.ndarray) -> np.ndarray:
+    """Mean over each cell of maps (…, 64, 80): (…, 8, 10)."""
+    *lead, height, width = maps.shape
+    return maps.reshape(*lead, ROWS, height // ROWS, COLUMNS, width // COLUMNS).mean(axis=(-3, -1))
 
 
 def cut_window(grey: np.ndarray, body: Body, view: View) -> np.ndarray:

@@ -73,15 +73,22 @@ def test_bad_places_are_named(tmp_path: Path) -> None:
 
 
 def test_a_truncated_video_is_read_as_far_as_it_goes_or_refused(tmp_path: Path) -> None:
-    whole = write_video(tmp_path / "whole.avi", [np.random.default_rng(i).integers(0, 255, (48, 64, 3), np.uint8) for i in range(30)])
+    whole = write_video(
+        tmp_path / "whole.avi", [np.random.default_rng(i).integers(0, 255, (48, 64, 3), np.uint8) for i in range(30)]
+    )
     data = whole.read_bytes()
     for share in (0.02, 0.5, 0.9):
         cut = tmp_path / "cut.avi"
         cut.write_bytes(data[: int(len(data) * share)])
-        try:
-            assert len(list(open_clip(cut))) <= 30
-        except ClipError as error:
-            assert "cut.avi" in str(error)
+        assert frames_or_refusal(cut) <= 30
+
+
+def frames_or_refusal(path: Path) -> int:
+    """Number of frames; 0 when the file is refused, which it must be by name."""
+    try:
+        return len(list(open_clip(path)))
+    except ClipError as error:
+        return 0 if path.name in str(error) else 999
 
 
 def test_a_range_beyond_the_end_is_refused(tmp_path: Path) -> None:
@@ -122,7 +129,9 @@ def test_arrays_of_any_kind_become_colour(shape: tuple[int, ...]) -> None:
     assert [frame.shape for frame in clip] == [(48, 64, 3)] * 4
 
 
-@pytest.mark.parametrize("frames", [[], np.zeros((3, 48, 64, 3)), [np.zeros((48, 64, 3), np.uint8), np.zeros((4, 6, 3), np.uint8)]])
+@pytest.mark.parametrize(
+    "frames", [[], np.zeros((3, 48, 64, 3)), [np.zeros((48, 64, 3), np.uint8), np.zeros((4, 6, 3), np.uint8)]]
+)
 def test_arrays_that_are_no_frames_are_refused(frames: object) -> None:
     with pytest.raises(ClipError):
         Clip.from_array(frames, 25)  # type: ignore[arg-type]

@@ -9,7 +9,9 @@ import pytest
 from recognizer.flow import derivatives, horn_schunck
 
 
-def plain_horn_schunck(first: np.ndarray, second: np.ndarray, alpha: float, iterations: int) -> tuple[np.ndarray, np.ndarray]:
+def plain_horn_schunck(
+    first: np.ndarray, second: np.ndarray, alpha: float, iterations: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Equations 3 and 4 of chapter 3 as they are printed, in double precision."""
 
     def shifted(image: np.ndarray, dy: int, dx: int) -> np.ndarray:
@@ -44,7 +46,9 @@ def test_equals_the_printed_equations(alpha: float) -> None:
     rng = np.random.default_rng(3)
     first = cv2.GaussianBlur(rng.uniform(0, 255, (48, 64)).astype(np.float32), (0, 0), 2)
     second = np.roll(first, 1, axis=1)
-    for fast, plain in zip(horn_schunck(first, second, alpha, 100), plain_horn_schunck(first, second, alpha, 100), strict=True):
+    for fast, plain in zip(
+        horn_schunck(first, second, alpha, 100), plain_horn_schunck(first, second, alpha, 100), strict=True
+    ):
         np.testing.assert_allclose(fast, plain, atol=1e-4)
 
 

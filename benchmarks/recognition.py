@@ -1,6 +1,6 @@
 """How fast is the recogniser? Everything is measured side by side in one run, on one thread.
 
-    python benchmarks/recognizer.py
+    python benchmarks/recognition.py
 
 Prints milliseconds and, because machines differ, each as a multiple of decoding the clip alone.
 """
