@@ -51,10 +51,14 @@ class BodyFinder:
             self.decide()
 
     def _search(self, sample: Sample) -> None:
-        height, width = sample.grey.shape
-        found = best_bodies(score_maps(sample.grey, *template()), (width, height))
+        self._found.append((len(self._moved) - 1, *self.search(sample.grey)))
+
+    def search(self, grey: np.ndarray) -> tuple[list[Body], np.ndarray]:
+        """Return the places that look like a person, and the score of the closer look at each."""
+        height, width = grey.shape
+        found = best_bodies(score_maps(grey, *template()), (width, height))
         weights, offset = closer_template()
-        self._found.append((len(self._moved) - 1, found, closer_look(sample.grey, found) @ weights + offset))
+        return found, closer_look(grey, found) @ weights + offset
 
     def decide(self) -> Body:
         """Choose among the candidates seen so far; the same answer whenever it is called again."""

@@ -16,8 +16,8 @@ import pyarrow.parquet as pq
 from recognizer.errors import DatabaseError
 
 IRRELEVANT = "irrelevant"  # family and label of motions that must not be answered
-_LEVELS = 15  # features are stored in [0, 1] of their own range, in 16 steps: no score changes, and it packs well
-_OUTLIERS = 0.005  # the range leaves out so many of the smallest and largest values
+_LEVELS = 65535  # features are stored in 16 bits of their own range
+_CODE = np.dtype("<u2")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -83,11 +83,11 @@ class Database:
         Raises:
             DatabaseError: the place cannot be written.
         """
-        low, high = np.quantile(self.features, [_OUTLIERS, 1 - _OUTLIERS], axis=0)
+        low, high = self.features.min(axis=0).astype(np.float64), self.features.max(axis=0)
         step = np.maximum(high - low, 1e-12) / _LEVELS
-        codes = np.round((self.features - low) / step).clip(0, _LEVELS).astype(np.uint8)
-        # One string of bytes a row: Parquet would widen single bytes to 32 bits.
-        vectors = pa.array([row.tobytes() for row in codes], pa.binary(codes.shape[1]))
+        codes = np.round((self.features - low) / step).astype(_CODE)
+        # One string of bytes a row: Parquet would widen small integers to 32 bits.
+        vectors = pa.array([row.tobytes() for row in codes], pa.binary(codes.shape[1] * codes.itemsize))
         text = {name: pa.array(getattr(self, name).tolist(), pa.string()) for name in _TEXT}
         header = {name: getattr(self, name) for name in _HEADER}
         packed = io.BytesIO()
@@ -125,7 +125,7 @@ class Database:
             with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
                 arrays = {name: packed[name] for name in packed.files}
             width = len(header["names"])
-            codes = np.frombuffer(b"".join(table["features"].to_pylist()), np.uint8).reshape(len(table), width)
+            codes = np.frombuffer(b"".join(table["features"].to_pylist()), _CODE).reshape(len(table), width)
             text: dict[str, Any] = {name: np.array(table[name].to_pylist(), dtype=str) for name in _TEXT}
             features = (codes * arrays.pop("step") + arrays.pop("low")).astype(np.float32)
         except (pa.ArrowException, KeyError, ValueError, TypeError, OSError, EOFError) as error:

@@ -1,0 +1,235 @@
+"""How the head-and-shoulders templates of :mod:`recognizer.finder` are learned from pictures with known heads.
+
+Three small linear steps, seconds to minutes on a laptop: a coarse template against the backgrounds it mistakes for
+people, a finer one against the coarse one's mistakes, and weights that choose among the candidates of a clip.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import cv2
+import numpy as np
+from sklearn.linear_model import LogisticRegression
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+
+from recognizer import finder
+from recognizer.body import BodyFinder
+from recognizer.clip import open_clip
+from recognizer.finder import CELL, CHANNELS, HEAD, HEAD_AT, TALL, WIDE, Body
+from recognizer.samples import Sample, Sampler
+
+COARSE_RIDGE, FINE_RIDGE = 30.0, 150.0
+ROUNDS = 3  # of adding what is mistaken for a person
+RANDOM_PLACES, HARD_PLACES = 20, 20  # a picture
+Weights = tuple[np.ndarray, float]
+
+
+@dataclasses.dataclass(frozen=True)
+class KnownHead:
+    """Truth for one clip: the head in its first frame.
+
+    Attributes:
+        path: the clip.
+        group: person, so that scores can be cross-fitted.
+        x, y, head: centre and height of the head, in fractions of the image's height.
+    """
+
+    path: Path
+    group: str
+    x: float
+    y: float
+    head: float
+
+
+def train(heads: Sequence[KnownHead], out: Path, seed: int = 0, tell: Callable[[str], None] = print) -> None:
+    """Learn all three steps and write the weights file.
+
+    Args:
+        heads: clips with known heads, of several persons.
+        out: the .npz file to write.
+        seed: of the random places that stand for background.
+        tell: called with a line of progress.
+    """
+    rng = np.random.default_rng(seed)
+    pictures = [(_first_sample(known).grey, known) for known in heads]
+    coarse = _coarse(pictures, rng, tell)
+    clips = [_candidates(known, coarse) for known in heads]
+    right = np.concatenate(
+        [_is_head(known, bodies, height) for known, (bodies, _, _, height) in zip(heads, clips, strict=True)]
+    )
+    groups = np.concatenate([[known.group] * len(clip[0]) for known, clip in zip(heads, clips, strict=True)])
+    table, cells = np.concatenate([clip[1] for clip in clips]), np.concatenate([clip[2] for clip in clips])
+    tell(f"{len(right)} candidates, {int(right.sum())} of them heads")
+    closer, fine = _fine(cells, right, groups)
+    ranking = _ranking(table, closer, right, np.concatenate([[i] * len(clip[0]) for i, clip in enumerate(clips)]))
+    np.savez_compressed(
+        out,
+        weights=coarse[0].astype(np.float16), offset=np.float32(coarse[1]),
+        fine_weights=fine[0].astype(np.float16), fine_offset=np.float32(fine[1]),
+        rank_weights=ranking[0], rank_offset=np.float64(ranking[1]),
+    )  # fmt: skip
+
+
+def balanced_ridge(X: np.ndarray, positive: np.ndarray, ridge: float) -> Weights:
+    """Least squares to ±1, both classes weighing the same: (d,) weights and an offset."""
+    weight = np.where(positive, 0.5 / positive.sum(), 0.5 / (~positive).sum()) * len(X)
+    target = np.where(positive, 1.0, -1.0)
+    centre, level = np.average(X, axis=0, weights=weight), np.average(target, weights=weight)
+    Z = (X - centre).astype(np.float32)
+    weighted = Z * weight[:, None].astype(np.float32)
+    covariance = (weighted.T @ Z).astype(np.float64)
+    covariance[np.diag_indices_from(covariance)] += ridge
+    solution = np.linalg.solve(covariance, weighted.T @ (target - level))
+    return solution, float(level - centre @ solution)
+
+
+def _first_sample(known: KnownHead) -> Sample:
+    clip = open_clip(known.path, (0, 0))
+    sample = Sampler(clip.fps).push(next(iter(clip)))
+    assert sample is not None
+    return sample
+
+
+def _coarse(
+    pictures: list[tuple[np.ndarray, KnownHead]], rng: np.random.Generator, tell: Callable[[str], None]
+) -> Weights:
+    """Heads against random places, then against the places that the template itself likes best."""
+    X, y = [], []
+    template: Weights | None = None
+    for turn in range(ROUNDS + 1):
+        for grey, known in pictures:
+            for patch, positive in _patches(grey, known, template, rng):
+                X.append(patch)
+                y.append(positive)
+        flat, offset = balanced_ridge(np.array(X, np.float32), np.array(y), COARSE_RIDGE)
+        template = (flat.reshape(TALL, WIDE, CHANNELS).astype(np.float32), offset)
+        tell(f"coarse template, round {turn}: {len(y)} patches")
+    assert template is not None
+    return template
+
+
+def _patches(
+    grey: np.ndarray, known: KnownHead, template: Weights | None, rng: np.random.Generator
+) -> list[tuple[np.ndarray, bool]]:
+    height, width = grey.shape
+    x, y, head = known.x * height, known.y * height, known.head * height
+    if rng.random() < 0.5:
+        grey, x = np.ascontiguousarray(grey[:, ::-1]), width - x
+    out = []
+    for _ in range(2):
+        scale = HEAD / head * np.exp(rng.normal(0, 0.06))
+        size = (max(8, round(width * scale)), max(8, round(height * scale)))
+        level = finder.cells(cv2.resize(grey, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR))
+        jitter = rng.uniform(-0.4, 0.4, 2)
+        place = (y * size[1] / height / CELL - 0.5 + jitter[0], x * size[0] / width / CELL - 0.5 + jitter[1])
+        out.append((_patch(level, round(place[0]), round(place[1])), True))
+    levels = finder.pyramid(grey)
+    for size_, row, column, level in _places(grey, levels, template, rng):
+        far = (
+            np.hypot((column + 0.5) * width / level.shape[1] - x, (row + 0.5) * height / level.shape[0] - y)
+            > 0.6 * head
+        )
+        if far or abs(np.log(size_ / head)) > 0.45:
+            out.append((_patch(level, row, column), False))
+    return out
+
+
+def _places(
+    grey: np.ndarray, levels: list[tuple[float, np.ndarray]], template: Weights | None, rng: np.random.Generator
+) -> list[tuple[float, int, int, np.ndarray]]:
+    if template is None:
+        chosen = [levels[i] for i in rng.integers(len(levels), size=RANDOM_PLACES)]
+        return [(h, int(rng.integers(c.shape[0])), int(rng.integers(c.shape[1])), c) for h, c in chosen]
+    by_head = dict(levels)
+    height, width = grey.shape
+    found = finder.best_bodies(finder.score_maps(grey, *template), (width, height), HARD_PLACES)
+    return [
+        (
+            b.head,
+            int(b.y * by_head[b.head].shape[0] / height),
+            int(b.x * by_head[b.head].shape[1] / width),
+            by_head[b.head],
+        )
+        for b in found
+    ]
+
+
+def _patch(level: np.ndarray, row: int, column: int) -> np.ndarray:
+    """The template's window of a pyramid level, flat; zero beyond the image."""
+    top, left = row - int(HEAD_AT[1]), column - int(HEAD_AT[0])
+    out = np.zeros((TALL, WIDE, CHANNELS), np.float32)
+    first, last = max(0, top), min(level.shape[0], top + TALL)
+    start, stop = max(0, left), min(level.shape[1], left + WIDE)
+    if last > first and stop > start:
+        out[first - top : last - top, start - left : stop - left] = level[first:last, start:stop]
+    return out.ravel()
+
+
+class _Collector(BodyFinder):
+    """A finder with another coarse template that keeps what the closer look would see."""
+
+    def __init__(self, coarse: Weights) -> None:
+        super().__init__()
+        self.coarse = coarse
+        self.cells: list[np.ndarray] = []
+
+    def search(self, grey: np.ndarray) -> tuple[list[Body], np.ndarray]:
+        """Candidates by the template in training; their closer look is scored later."""
+        height, width = grey.shape
+        found = finder.best_bodies(finder.score_maps(grey, *self.coarse), (width, height))
+        self.cells.append(finder.closer_look(grey, found))
+        return found, np.zeros(len(found))
+
+    def decide(self) -> Body:
+        """Stop searching; which candidate is right is known already."""
+        self.body = Body(0, 0, 1, 0)
+        return self.body
+
+
+def _candidates(known: KnownHead, coarse: Weights) -> tuple[list[Body], np.ndarray, np.ndarray, int]:
+    clip = open_clip(known.path)
+    sampler, collector = Sampler(clip.fps), _Collector(coarse)
+    for frame in clip:
+        sample = sampler.push(frame)
+        if sample is not None:
+            collector.observe(sample)
+    bodies, table = collector.candidates()
+    return (
+        bodies,
+        table[:, : table.shape[1] // 2],
+        np.concatenate(collector.cells).astype(np.float16),
+        sampler.samples[0].grey.shape[0],
+    )
+
+
+def _is_head(known: KnownHead, bodies: list[Body], height: int) -> np.ndarray:
+    head = known.head * height
+    near = [np.hypot(b.x - known.x * height, b.y - known.y * height) < 0.4 * head for b in bodies]
+    alike = [abs(np.log(b.head / head)) < 0.25 for b in bodies]
+    return np.array(near) & np.array(alike)
+
+
+def _fine(cells: np.ndarray, right: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, Weights]:
+    """Scores of the closer look, each by weights that did not see that person, and the weights of all."""
+    scores = np.zeros(len(cells))
+    persons = np.unique(groups)
+    for half in (persons[::2], persons[1::2]):
+        test = np.isin(groups, half)
+        weights, offset = balanced_ridge(cells[~test].astype(np.float32), right[~test], FINE_RIDGE)
+        scores[test] = cells[test].astype(np.float32) @ weights + offset
+    return scores, balanced_ridge(cells.astype(np.float32), right, FINE_RIDGE)
+
+
+def _ranking(table: np.ndarray, closer: np.ndarray, right: np.ndarray, clip: np.ndarray) -> Weights:
+    table = np.column_stack([table[:, :-1], closer])
+    relative = table.copy()
+    for number in np.unique(clip):
+        relative[clip == number] -= table[clip == number].max(axis=0)
+    model = make_pipeline(StandardScaler(), LogisticRegression(max_iter=2000)).fit(np.hstack([table, relative]), right)
+    scaler, logistic = model[0], model[-1]
+    weights = logistic.coef_[0] / scaler.scale_
+    return weights, float(logistic.intercept_[0] - scaler.mean_ @ weights)
