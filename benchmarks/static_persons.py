@@ -1,6 +1,6 @@
 """Measure the posture recogniser on rendered photos of a person with face, arm and hand in view, by size of the hand.
 
-Usage: python -P benchmarks/static_persons.py [--persons even|odd] [--every N]
+Usage: python benchmarks/static_persons.py [--persons even|odd] [--every N]
 
 What was chosen by looking at such photos was chosen on persons with odd numbers; even ones are reported.
 """

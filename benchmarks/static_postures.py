@@ -1,6 +1,6 @@
 """Measure the posture recogniser on real photos: person-disjoint, and learnt from hands that nobody filmed.
 
-Usage: python -P benchmarks/static_postures.py ../shared/clips/static [--database assets/databases/static.parquet]
+Usage: python benchmarks/static_postures.py ../shared/clips/static [--database assets/databases/static.parquet]
 
 The photos are not part of the project. Only persons with an odd number are reported in the second part: what was
 chosen by looking at photos was chosen on the even ones.
