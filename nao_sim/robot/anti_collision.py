@@ -64,8 +64,10 @@ def clamp_pairs(angles: np.ndarray) -> np.ndarray:
     """Return ``(25,)`` angles with head pitch and ankle rolls inside what head yaw and ankle pitches leave them."""
     safe = np.array(angles, dtype=float)
     for given, limited, table in _indexed():
-        low, high = table.range_at(safe[given])
-        safe[limited] = min(max(safe[limited], low), high)
+        # item() gives a plain float, with which comparing is several times faster than with numpy's.
+        low, high = table.range_at(safe.item(given))
+        if not low <= safe.item(limited) <= high:
+            safe[limited] = min(max(safe.item(limited), low), high)
     return safe
 
 
@@ -81,8 +83,8 @@ def hold_pairs(previous: np.ndarray, proposed: np.ndarray, goal: np.ndarray, ste
         step: ``(25,)`` greatest change in this step, rad.
     """
     for given, limited, table in _indexed():
-        low, high = table.range_at(proposed[given])
-        if low <= proposed[limited] <= high:
+        low, high = table.range_at(proposed.item(given))
+        if low <= proposed.item(limited) <= high:
             continue
         start, reach = previous[limited], step[limited]
         wanted = min(max(goal[limited], low), high)

@@ -52,10 +52,13 @@ class CommandLayer:
     def __init__(self, limits: str, period: float) -> None:
         table = joint_table().select(ACTUATED)
         self.low, self.high = table.range_rad(limits).T.copy()
-        self._least, self._most = self.low - TOLERANCE_RAD, self.high + TOLERANCE_RAD
         self.max_speed = table.max_speed_rad("nominal")
-        self._acceleration = np.array([joint.acceleration for joint in table.joints])
+        acceleration = np.array([joint.acceleration for joint in table.joints])
         self._period = period
+        self._gain = acceleration * period
+        # Stopping from v takes v² / 2a plus the period it goes on; solved for v, times the period.
+        self._slow = acceleration * period**2 / 2
+        self._slow_squared, self._brake = self._slow**2, 2 * acceleration * period**2
         self._speed = np.zeros(len(ACTUATED))
         self.targets = np.zeros(len(ACTUATED))
         self.setpoint = np.zeros(len(ACTUATED))
@@ -92,12 +95,17 @@ class CommandLayer:
         """Set all ``(25,)`` targets at once, in ``ACTUATED`` order; raises as :meth:`set` does."""
         if np.shape(targets) != self.targets.shape:
             raise TargetError(f"targets have shape {np.shape(targets)}; give {self.targets.shape}, one per motor")
-        inside = (targets >= self._least) & (targets <= self._most)
-        if not inside.all():
-            self._refuse(targets, int(inside.argmin()))
-        self.targets = clamp_pairs(np.minimum(np.maximum(targets, self.low), self.high))
+        inside = np.minimum(np.maximum(targets, self.low), self.high)
+        if not (inside == targets).all():
+            self._forgive(targets, inside)
+        self.targets = clamp_pairs(inside)
 
-    def _refuse(self, targets: np.ndarray, row: int) -> None:
+    def _forgive(self, targets: np.ndarray, inside: np.ndarray) -> None:
+        """Raise unless targets are outside by rounding alone."""
+        near = np.abs(inside - targets) <= TOLERANCE_RAD
+        if near.all():
+            return
+        row = int(near.argmin())
         if not np.isfinite(targets[row]):
             raise TargetError(f"{ACTUATED[row]}: the target is not a finite number; give radians")
         raise AngleRangeError(ACTUATED[row], float(targets[row]), float(self.low[row]), float(self.high[row]))
@@ -122,16 +130,11 @@ class CommandLayer:
             setpoint, targets: ``(..., 25)`` now, and where to.
             speed: ``(..., 25)`` of the step before, rad/s.
         """
-        period = self._period
-        speed = np.minimum(self.max_speed, speed + self._acceleration * period)
-        up = np.minimum(speed, self._stopping(self.high - setpoint))
-        down = np.minimum(speed, self._stopping(setpoint - self.low))
-        return setpoint + np.minimum(np.maximum(targets - setpoint, -down * period), up * period), speed
-
-    def _stopping(self, room: np.ndarray) -> np.ndarray:
-        """Return the speed from which a joint still stops within ``room`` rad: v² / 2a plus the period it goes on."""
-        room = np.maximum(room, 0)
-        slow = self._acceleration * self._period / 2
-        return np.maximum(
-            np.sqrt(slow * slow + 2 * self._acceleration * room) - slow, np.minimum(room / self._period, _CREEP_RAD_S)
-        )
+        speed = np.minimum(self.max_speed, speed + self._gain)
+        change = targets - setpoint
+        room = np.maximum(np.where(change > 0, self.high - setpoint, setpoint - self.low), 0)
+        # A joint may run only as fast as it can still stop before the end of its range.
+        stopping = np.sqrt(self._slow_squared + self._brake * room) - self._slow
+        creeping = np.minimum(room, _CREEP_RAD_S * self._period)
+        reach = np.minimum(speed * self._period, np.maximum(stopping, creeping))
+        return setpoint + np.minimum(np.maximum(change, -reach), reach), speed

@@ -22,7 +22,7 @@ class FallDetector:
         robot = {b for b in range(model.nbody) if model.body_rootid[b] == model.body("torso").id}
         feet = {model.body(name).id for name in _FEET}
         # World 0, feet 3, the rest of the robot 1: only a body part on the world adds up to 1.
-        self._kind = np.array([3 if b in feet else 1 if b in robot else 0 for b in model.geom_bodyid])
+        self._kind = [3 if b in feet else 1 if b in robot else 0 for b in model.geom_bodyid.tolist()]
         self._torso = model.body("torso").id
         self._upright = float(np.cos(TILT_RAD))
         self._fixed = model.joint(0).type[0] != mujoco.mjtJoint.mjJNT_FREE
@@ -41,5 +41,6 @@ class FallDetector:
         return down and self._armed
 
     def _body_contact(self, data: mujoco.MjData) -> bool:
-        geoms = data.contact.geom
-        return bool((self._kind[geoms[:, 0]] + self._kind[geoms[:, 1]] == 1).any())
+        # A handful of contacts: plain lists are faster than arrays.
+        kind = self._kind
+        return any(kind[a] + kind[b] == 1 for a, b in data.contact.geom.tolist())

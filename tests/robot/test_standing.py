@@ -84,7 +84,7 @@ def test_halving_the_time_step_changes_no_angle_by_half_a_degree() -> None:
             angles.append(nao.angles[[i for i, n in enumerate(ACTUATED) if not n.endswith("Hand")]])
         return np.degrees(np.array(angles))
 
-    assert np.abs(run(0.004) - run(0.002)).max() < 0.5
+    assert np.abs(run(0.005) - run(0.0025)).max() < 0.5
 
 
 def test_same_commands_same_trajectory_bit_for_bit() -> None:
