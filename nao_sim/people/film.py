@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 
 from nao_sim.people.avi import AviWriter
-from nao_sim.people.performance import of_a_finger
+from nao_sim.people.motions import of_a_finger
 from nao_sim.people.sensor import Exposure, Image
 from nao_sim.people.shots import Shot
 from nao_sim.people.stage import Stage

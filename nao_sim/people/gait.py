@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -19,23 +20,41 @@ STRIDE_STATURES = 0.83
 
 @dataclass(frozen=True)
 class Walk:
-    """A crossing along the person's y axis (image left is -y) from ``begin`` to ``end``, both in statures."""
+    """A straight walk over the floor.
 
-    begin: float
-    end: float
+    Attributes:
+        begin: where it begins, (x, y) in statures.
+        length: how far it goes, statures.
+        heading: where it goes, rad; 0 to the camera, a quarter turn to the image's right.
+        start, seconds: when, and for how long.
+        swing: factor on the swing of the arms.
+        phase: of the stride at the beginning, rad.
+    """
+
+    begin: tuple[float, float]
+    length: float
+    heading: float
     start: float
     seconds: float
     swing: float
     phase: float
 
     @classmethod
-    def draw(cls, sides: Any, half_width: float, stature: float, tempo: float, rng: Generator) -> Walk:
-        """Draw a crossing from near one edge of the image (or beyond it) to near the other."""
-        half = half_width / stature
-        begin = sides[0] * half * rng.uniform(0.55, 1.2)
-        end = sides[1] * half * rng.uniform(0.55, 1.2)
-        seconds = abs(end - begin) / (SPEED_STATURES * tempo) + 0.2
-        return cls(begin, end, 0.0, float(seconds), float(rng.uniform(0.7, 1.3)), float(rng.uniform(0, 2 * np.pi)))
+    def draw(cls, step: Mapping[str, Any], half_width: float, stature: float, tempo: float, rng: Generator) -> Walk:
+        """Draw a walk: ``walk`` from near one edge of the image (or beyond it) to near the other, ``approach`` towards
+        the camera or away from it between two distances in front of where the person would stand, in statures."""
+        if "walk" in step:
+            half = half_width / stature
+            begin, end = (side * half * rng.uniform(0.55, 1.2) for side in step["walk"])
+            heading, place = np.pi / 2 * np.sign(end - begin), (0.0, begin)
+        else:
+            begin, end = (float(rng.uniform(*reach)) for reach in step["approach"])
+            heading = (0.0 if end > begin else np.pi) + rng.normal(0, 0.12)
+            place = (begin, float(rng.normal(0, 0.05)))
+        length = abs(end - begin)
+        seconds = length / (SPEED_STATURES * tempo) + 0.2
+        swing, phase = float(rng.uniform(0.7, 1.3)), float(rng.uniform(0, 2 * np.pi))
+        return cls(place, float(length), float(heading), 0.0, float(seconds), swing, phase)
 
     def delayed(self, lead: float) -> Walk:
         """The same walk, beginning ``lead`` seconds later."""
@@ -48,11 +67,11 @@ def walk_angles(walk: Walk, times: Array, out: Array) -> None:
     share = np.clip((times - walk.start) / walk.seconds, 0.0, 1.0)
     # Even speed with a soft start and stop over a tenth of the way.
     ramp = np.clip(np.minimum(share, 1 - share) / 0.08, 0.0, 1.0)
-    way = share + 0.02 * np.sin(2 * np.pi * share)
-    travelled = (walk.end - walk.begin) * way
-    phase = 2 * np.pi * np.abs(travelled) / STRIDE_STATURES + walk.phase
-    out[:, index["root_y"]] += walk.begin + travelled
-    out[:, index["root_yaw"]] += np.pi / 2 * np.sign(walk.end - walk.begin)
+    travelled = walk.length * (share + 0.02 * np.sin(2 * np.pi * share))
+    phase = 2 * np.pi * travelled / STRIDE_STATURES + walk.phase
+    out[:, index["root_x"]] += walk.begin[0] + travelled * np.cos(walk.heading)
+    out[:, index["root_y"]] += walk.begin[1] + travelled * np.sin(walk.heading)
+    out[:, index["root_yaw"]] += walk.heading
     for side, shift in (("r_", 0.0), ("l_", np.pi)):
         swing = np.sin(phase + shift)
         lifted = np.maximum(0.0, np.cos(phase + shift)) ** 1.5

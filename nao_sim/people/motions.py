@@ -9,9 +9,11 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.random import Generator
 from numpy.typing import NDArray
 
 from nao_sim.people.figure import skeleton
+from nao_sim.people.persons import FINGERS
 from nao_sim.people.surface import Array
 from nao_sim.resources import resource
 
@@ -20,9 +22,7 @@ SLIDES = ("root_x", "root_y", "root_z")
 # Angles that change sign when left and right are exchanged: turns about the vertical and the forward axis.
 _TRUNK = ("root", "waist", "chest", "head")
 _ODD = ("root_y", *(f"{body}_{turn}" for body in _TRUNK for turn in ("roll", "yaw")))
-_FINGER = {"thumb": ("abduct", "oppose", "roll", "mcp", "ip")} | dict.fromkeys(
-    ("index", "middle", "ring", "little"), ("spread", "mcp", "pip", "dip")
-)
+_FINGER = {"thumb": ("abduct", "oppose", "roll", "mcp", "ip")} | dict.fromkeys(FINGERS, ("spread", "mcp", "pip", "dip"))
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,7 @@ class Motion:
         either_side: left and right are exchanged in half of the performances.
         reach: how much of the drawn size goes into poses that are not cycles.
         weight: how often it is drawn among its label's motions.
+        vary: ranges that :func:`drawn_offsets` draws from once a performance, for every pose but rest.
     """
 
     label: str
@@ -48,6 +49,7 @@ class Motion:
     either_side: bool
     reach: float
     weight: float
+    vary: Mapping[str, Any]
 
 
 @lru_cache
@@ -101,24 +103,64 @@ def pose(name: str, mirrored: bool = False) -> Pose:
     """Look up a pose of the motion file, or its mirror image."""
     angles, named = np.zeros(len(joints())), np.zeros(len(joints()), dtype=bool)
     for key, value in tables()["pose"][name].items():
-        side = key[:2] if key[:2] in ("r_", "l_") else ""
-        if mirrored and side:
-            side = "l_" if side == "r_" else "r_"
-        stem = key[2:] if side else key
-        sign = -1.0 if mirrored and stem in _ODD else 1.0
-        said = hand_postures()[value] if stem == "hand" else {stem: sign * value}
+        posture = hand_postures()[value] if key.endswith("_hand") else {}
+        said = {key[:2] + joint: amount for joint, amount in posture.items()} or {key: value}
         for joint, amount in said.items():
-            k = joints()[side + joint]
-            angles[k] = amount if joint in SLIDES else np.radians(amount)
-            named[k] = True
+            for k, sign in _turned(joint, mirrored):
+                angles[k] = sign * in_units(joint, amount)
+                named[k] = True
     return Pose(angles, named)
+
+
+def drawn_offsets(ranges: Mapping[str, Any], mirrored: bool, rng: Generator) -> Array:
+    """Angles (nq,) drawn evenly from ``ranges``, joint -> (low, high) in the units of the motion file.
+
+    ``b_`` before a joint turns both sides alike, ``x_`` turns the left against the right.
+    """
+    angles = np.zeros(len(joints()))
+    for key, (low, high) in ranges.items():
+        amount = in_units(key, rng.uniform(low, high))
+        for k, sign in _turned(key, mirrored):
+            angles[k] += sign * amount
+    return angles
+
+
+def in_units(joint: str, amount: float) -> float:
+    """An amount of the motion file as joint position: slides stay statures, degrees become rad."""
+    return float(amount if joint in SLIDES else np.radians(amount))
+
+
+def _turned(key: str, mirrored: bool) -> list[tuple[int, float]]:
+    """The joints of a key of the motion file, as (index in qpos, sign)."""
+    side, stem = key[:2], key[2:]
+    if side in ("b_", "x_"):
+        against = -1.0 if side == "x_" else 1.0
+        right, left = (against, 1.0) if mirrored else (1.0, against)
+        return [(joints()["r_" + stem], right), (joints()["l_" + stem], left)]
+    if side not in ("r_", "l_"):
+        return [(joints()[key], -1.0 if mirrored and key in _ODD else 1.0)]
+    if mirrored:
+        side = "l_" if side == "r_" else "r_"
+    return [(joints()[side + stem], 1.0)]
+
+
+@lru_cache
+def of_a_finger() -> NDArray[np.bool_]:
+    """Joints (nq,) of fingers and thumbs: a hand's posture is not made larger."""
+    return np.array([any(finger in name for finger in ("thumb", *FINGERS)) for name in joints()])
+
+
+@lru_cache
+def of_a_limb() -> NDArray[np.bool_]:
+    """Joints (nq,) of arms and legs: a pose names their angle, while trunk and head move from where they are."""
+    return np.array([name[:2] in ("r_", "l_") for name in joints()])
 
 
 @lru_cache
 def motions() -> dict[str, tuple[Motion, ...]]:
     """Label -> the ways it is performed; mirrored motions are resolved."""
     rows = tables()["motion"]
-    own = [_motion(row, row["label"], mirrored=False) for row in rows if "steps" in row]
+    own = [_motion(row, row["label"], mirrored=row.get("mirrored", False)) for row in rows if "steps" in row]
     for row in rows:
         if "mirror_of" in row:
             twins = [other for other in rows if other["label"] == row["mirror_of"]]
@@ -137,4 +179,5 @@ def _motion(row: Mapping[str, Any], label: str, mirrored: bool) -> Motion:
         either_side=bool(row.get("either_side", False)),
         reach=float(row.get("reach", 0.25)),
         weight=float(row.get("weight", 1.0)),
+        vary=row.get("vary", {}),
     )

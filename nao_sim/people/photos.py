@@ -70,7 +70,8 @@ def draw_photo(seed: int, label: str, person: Person, take: int) -> Photo:
     width, height, _ = weighted(kind["sizes"], rng)
     left = bool(rng.random() < table()["hand"]["left_share"])
     film = table()["film"]
-    sensor = replace(Sensor.draw(cameras()["sensor"] | film, rng), flicker=(0.0, 1.0))
+    lit = {name: value for name, value in cameras()["sensor"].items() if name != "dim"}
+    sensor = replace(Sensor.draw(lit | film, rng), flicker=(0.0, 1.0))
     outfit = draw_outfit(rng)
     if close and outfit.sleeves == "long":
         # Cuffs hide the wrist in some photos, not in all.

@@ -25,6 +25,7 @@ class Sensor:
     Attributes:
         gain: factors (3,) of B, G and R.
         gamma: exponent on top of the display's.
+        veil: grey level of black: stray light and automatic gain lift it.
         drift: rows (amplitude, Hz, phase) of the slow exposure change.
         flicker: amplitude and Hz as sampled by the frame rate.
         noise: standard deviation, grey levels at middle grey.
@@ -36,6 +37,7 @@ class Sensor:
 
     gain: Array
     gamma: float
+    veil: float
     drift: Array
     flicker: tuple[float, float]
     noise: float
@@ -46,12 +48,15 @@ class Sensor:
 
     @classmethod
     def draw(cls, table: Mapping[str, Any], rng: Generator) -> Sensor:
-        """Draw the settings of a clip from the ranges of the camera file."""
+        """Draw the settings of a clip from the ranges of the camera file; a share of the clips is dimly lit."""
+        if "dim" in table and rng.random() < table["dim"]["share"]:
+            table = {**table, **table["dim"]}
         lit = rng.random() < table["flicker_share"]
         drift = np.stack([rng.normal(0, table["drift"], 2), rng.uniform(0.05, 0.6, 2), rng.uniform(0, 6.28, 2)], axis=1)
         return cls(
             gain=rng.uniform(*table["gain"]) * (1 + rng.normal(0, table["cast"], 3)),
             gamma=float(rng.uniform(*table["gamma"])),
+            veil=float(rng.uniform(*table["veil"])) if "veil" in table else 0.0,
             drift=drift,
             flicker=(float(rng.uniform(*table["flicker"])) if lit else 0.0, float(rng.uniform(0.3, 6))),
             noise=float(rng.uniform(*table["noise"])),
@@ -73,7 +78,8 @@ class Exposure:
         field = self._rng.standard_normal(shape, dtype=np.float32) * sensor.noise
         # Chroma noise is weaker than luma noise, and sensors blur it.
         field = 0.6 * field + 0.4 * field.mean(axis=2, keepdims=True) * np.sqrt(3)
-        self._field = np.round(field).astype(np.int16)
+        # Adding what brightens and subtracting what darkens is four times as fast as adding signed numbers.
+        self._brighter, self._darker = (np.round(np.maximum(part, 0)).astype(np.uint8) for part in (field, -field))
         self._levels = (np.arange(256) / 255) ** sensor.gamma * 255
 
     def develop(self, rgb: Image, time: float) -> Image:
@@ -82,11 +88,12 @@ class Exposure:
         amplitude, rate = sensor.flicker
         level = 1 + amplitude * np.sin(2 * np.pi * rate * time)
         level += (sensor.drift[:, 0] * np.sin(2 * np.pi * sensor.drift[:, 1] * time + sensor.drift[:, 2])).sum()
-        table = np.clip(self._levels[:, None] * sensor.gain * level, 0, 255).astype(np.uint8)
+        lit = np.clip(self._levels[:, None] * sensor.gain * level, 0, 255)
+        table = (sensor.veil + lit * (1 - sensor.veil / 255)).astype(np.uint8)
         frame = cv2.LUT(cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR), table[None])
         if self._sigma > 0.25:
             frame = cv2.GaussianBlur(frame, (0, 0), self._sigma)
         height, width = frame.shape[:2]
         y, x = self._rng.integers(0, _FIELD_MARGIN, 2)
-        noisy = cv2.add(frame, self._field[y : y + height, x : x + width], dtype=cv2.CV_8U)
-        return np.asarray(noisy, dtype=np.uint8)
+        place = slice(y, y + height), slice(x, x + width)
+        return np.asarray(cv2.subtract(cv2.add(frame, self._brighter[place]), self._darker[place]), dtype=np.uint8)

@@ -7,9 +7,11 @@ import pytest
 from nao_sim.people.figure import skeleton
 from nao_sim.people.manifest import known_labels
 from nao_sim.people.motions import IRRELEVANT, hand_postures, joints, motions, pose, tables
-from nao_sim.people.performance import CLIP_SECONDS, SIZE, TEMPO, minimum_jerk, perform
+from nao_sim.people.performance import CLIP_SECONDS, perform
 from nao_sim.people.photos import postures
+from nao_sim.people.planning import SIZE, TEMPO
 from nao_sim.people.shots import draw_cast
+from nao_sim.people.strokes import minimum_jerk
 
 DYNAMIC = [label for label, family in known_labels().items() if family in ("small", "large")]
 CAST = draw_cast(7, 6)
