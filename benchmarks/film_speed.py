@@ -18,10 +18,10 @@ from typing import Any
 import cv2
 import numpy as np
 
-from nao_sim.people.film import exposed_angles
+from nao_sim.people.film import exposed_angles, one_core
 from nao_sim.people.motions import IRRELEVANT, motions
 from nao_sim.people.sensor import Exposure
-from nao_sim.people.shots import draw_cast, draw_shot
+from nao_sim.people.shots import COARSE, draw_cast, draw_shot
 from nao_sim.people.stage import Stage
 
 WALL: dict[str, float] = defaultdict(float)
@@ -45,12 +45,13 @@ def main() -> None:
     width, height = options.size
     labels = [label for label in motions() if label != IRRELEVANT]
     frames = renders = 0
-    with Stage() as stage:
-        stage.set_size(width, height)
+    with one_core(), Stage() as fine, Stage(COARSE) as coarse:
         for k in range(options.clips):
             shot = timed("draw", lambda k=k: draw_shot(1, labels[k % len(labels)], draw_cast(1, 6)[k % 6], k))
             shot = replace(shot, width=width, height=height)
-            timed("reshape", lambda shot=shot: stage.cast(shot.person, shot.outfit))
+            stage = fine if shot.detail == 1 else coarse
+            stage.set_size(width, height)
+            timed("reshape", lambda shot=shot, stage=stage: stage.cast(shot.person, shot.outfit))
             stage.furnish(shot.room)
             stage.light(shot.light)
             stage.aim(shot.camera)
@@ -60,7 +61,7 @@ def main() -> None:
             exposure = timed("sensor", lambda shot=shot: Exposure(shot.sensor, width, height))
             for frame, count in enumerate(steps):
                 for step in range(count):
-                    picture = timed("render", lambda a=angles[frame, step]: stage.image(a))
+                    picture = timed("render", lambda a=angles[frame, step], stage=stage: stage.image(a))
                 shown = timed("sensor", lambda e=exposure, p=picture, t=times[frame]: e.develop(p, float(t)))
                 timed("encode", lambda s=shown: cv2.imencode(".jpg", s, [cv2.IMWRITE_JPEG_QUALITY, 65]))
                 frames, renders = frames + 1, renders + count

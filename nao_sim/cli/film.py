@@ -18,7 +18,10 @@ def film(
     persons: Annotated[int, typer.Option(help="How many persons; every third is a child.")] = 12,
     takes: Annotated[int, typer.Option(help="Clips of each class by each person.")] = 2,
     seed: Annotated[int, typer.Option(help="The same seed gives the same pixels.")] = 0,
-    classes: Annotated[list[str] | None, typer.Option(help="Only these classes; all dynamic ones without it.")] = None,
+    classes: Annotated[
+        list[str] | None,
+        typer.Option(help="Only these classes, separated by commas or each with its own --classes; else all dynamic."),
+    ] = None,
     irrelevant: Annotated[int, typer.Option(help="Clips of motions that are no gesture.")] = 0,
     processes: Annotated[int, typer.Option(help="How many render at once; 0 for one a core.")] = 0,
     samples: Annotated[bool, typer.Option("--samples", help="Film the sample clips of assets/clips instead.")] = False,
@@ -28,7 +31,8 @@ def film(
         names = list(track(film_samples(out), "filming", total=len(sample_labels())))
         typer.echo(f"{len(names)} samples in {out}")
         return
-    jobs = dataset.plan(persons, takes, seed, classes or None, irrelevant)
+    labels = [label.strip() for names in classes or () for label in names.split(",") if label.strip()]
+    jobs = dataset.plan(persons, takes, seed, labels or None, irrelevant)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     frames = 0
     with Progress(*columns) as progress:
@@ -40,6 +44,6 @@ def film(
             progress.advance(task)
 
         dataset.film(jobs, out, processes or os.cpu_count() or 1, done)
-    command = {"persons": persons, "takes": takes, "seed": seed, "classes": classes, "irrelevant": irrelevant}
+    command = {"persons": persons, "takes": takes, "seed": seed, "classes": labels or None, "irrelevant": irrelevant}
     dataset.write_card(out, command, jobs)
     typer.echo(f"{len(jobs)} clips in {out}, {frames} frames rendered now")

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from nao_sim.people.errors import FilmError
-from nao_sim.people.film import write_clip
+from nao_sim.people.film import one_core, write_clip
 from nao_sim.people.manifest import read_manifest, replace_file, write_manifest
 from nao_sim.people.motions import IRRELEVANT, motions
 from nao_sim.people.persons import Person
@@ -102,7 +102,6 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
     for job in jobs:
         if (out / job.file).exists():
             done(0)
-    todo.sort(key=lambda job: job.is_photo)  # one change of stage
     if processes == 1:
         try:
             for job in todo:
@@ -124,36 +123,34 @@ def _claim(out: Path, seeds: set[int]) -> None:
         raise FilmError(f"{out} holds another data set (seed {sorted(map(str, standing))[0]}); choose another folder")
 
 
-class _OpenStage:
-    """The one stage of this process, at the detail asked for last."""
+class _OpenStages:
+    """The stages of this process, one for each detail that was asked for."""
 
     def __init__(self) -> None:
-        self._stage: Stage | None = None
-        self._detail = 0.0
+        self._stages: dict[float, Stage] = {}
 
     def at(self, detail: float) -> Stage:
-        if self._stage is None or detail != self._detail:
-            self.close()
-            self._stage, self._detail = Stage(detail), detail
-        return self._stage
+        if detail not in self._stages:
+            self._stages[detail] = Stage(detail)
+        return self._stages[detail]
 
     def close(self) -> None:
-        if self._stage is not None:
-            self._stage.close()
-            self._stage = None
+        while self._stages:
+            self._stages.popitem()[1].close()
 
 
-_open = _OpenStage()
+_open = _OpenStages()
 
 
 def _film_one(job: Job, out: Path) -> int:
     """Render one clip or photo; returns its number of frames."""
-    if job.is_photo:
-        write_photo(_open.at(PHOTO_DETAIL), job.photo(), out / job.file)
-        return 1
-    shot = job.shot()
-    write_clip(_open.at(1.0), shot, out / job.file)
-    return shot.frames
+    with one_core():
+        if job.is_photo:
+            write_photo(_open.at(PHOTO_DETAIL), job.photo(), out / job.file)
+            return 1
+        shot = job.shot()
+        write_clip(_open.at(shot.detail), shot, out / job.file)
+        return shot.frames
 
 
 def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], None]) -> None:

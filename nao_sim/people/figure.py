@@ -44,9 +44,12 @@ def skeleton() -> mujoco.MjSpec:
     return mujoco.MjSpec.from_file(str(resource("models", "person", "person.xml")))
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=3)
 def parts(detail: float = 1.0) -> tuple[Part, ...]:
-    """Melt and skin all parts; ``detail`` divides the grid spacing of the hand (2 shows it in close-up)."""
+    """Melt and skin all parts; ``detail`` divides the grid spacing, above 1 that of the hand alone.
+
+    2 shows the hand in close-up, 1 a person, and below 1 a person in a small picture.
+    """
     with resource("assets", "people", "shape.toml").open("rb") as file:
         shape = tomllib.load(file)
     model = skeleton().compile()
@@ -66,8 +69,8 @@ def build_frames(model: mujoco.MjModel, pose_deg: Mapping[str, float]) -> Array:
 
 def _piece(model: mujoco.MjModel, frames: Array, name: str, piece: dict[str, Any], detail: float) -> list[Part]:
     """Melt one piece of the shape file and cut it into its parts; a piece of side cones is made once and mirrored."""
-    spacing = piece["spacing"] / (detail if name == "hand" else 1.0)
     alone = name == "hand"
+    spacing = piece["spacing"] / (detail if alone else min(detail, 1.0))
     cones = [cone for row in piece["cones"] for cone in _cones(model, frames, row, right_only=alone)]
     paint = [cone for row in piece.get("paint", []) for cone in _cones(model, frames, row, right_only=alone)]
     mesh = Mesh(*melt_cones(cones, spacing, piece["melt"]))

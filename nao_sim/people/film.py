@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import cv2
@@ -20,6 +22,21 @@ _BLUR_RAD = np.radians(5.0)
 _BLUR_STEPS = 3
 # Small frames show the stairs of an outline: rendered at twice the size, which costs little there, and averaged.
 _SMALL = 240
+
+
+@contextmanager
+def one_core() -> Iterator[None]:
+    """Keep OpenCV and, when it is not yet at work, Mesa's software renderer from starting threads of their own.
+
+    Their pictures are too small for it: the threads cost a third more processor time than they are worth.
+    """
+    os.environ.setdefault("LP_NUM_THREADS", "0")
+    threads = cv2.getNumThreads()
+    cv2.setNumThreads(1)
+    try:
+        yield
+    finally:
+        cv2.setNumThreads(threads)
 
 
 def roll(stage: Stage, shot: Shot, fine: bool = False) -> Iterator[Image]:

@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 from numpy.random import Generator
 
+from nao_sim.people.camera import Camera, Light
 from nao_sim.people.clothes import Outfit, draw_outfit
 from nao_sim.people.errors import FilmError
 from nao_sim.people.motions import hand_postures, joints
@@ -20,7 +21,7 @@ from nao_sim.people.persons import Person, body_scales
 from nao_sim.people.rooms import BOX, FACING, Item, draw_room
 from nao_sim.people.sensor import Exposure, Image, Sensor
 from nao_sim.people.shots import cameras, draw_light, generator, weighted
-from nao_sim.people.stage import Camera, Light, Stage
+from nao_sim.people.stage import Stage
 from nao_sim.people.surface import Array
 from nao_sim.resources import resource
 

@@ -5,7 +5,7 @@ The camera looks along -x from in front of a person who stands at the origin; y 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import mujoco
@@ -93,10 +93,12 @@ def draw_room(rng: Generator, clutter: float) -> list[Item]:
             Item(BOX, (-depth, 0, 0.5), (0.02, 9, rng.uniform(0.3, 0.7)), _colour(rng, 0.2, 0.8, 0.18), "plain")
         )
     pieces = round(clutter * int(rng.integers(3, 12)))
-    for _ in range(pieces):
+    for k in range(pieces):
         # Furniture that stands before a near wall would stand before the person.
         choice = _PIECES if depth > 1.3 else _FLAT
-        room += choice[int(rng.integers(len(choice)))](rng, depth)
+        piece = choice[int(rng.integers(len(choice)))](rng, depth)
+        # What hangs over something else hangs a little before it; at one depth both would shimmer through.
+        room += [replace(item, pos=(item.pos[0] + 0.008 * k, *item.pos[1:])) for item in piece]
     return room[:MAX_ITEMS]
 
 

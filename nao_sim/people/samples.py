@@ -12,6 +12,7 @@ import mujoco
 import numpy as np
 from numpy.random import Generator
 
+from nao_sim.people.camera import Light
 from nao_sim.people.dataset import photo_row, shot_row
 from nao_sim.people.errors import FilmError
 from nao_sim.people.figure import skeleton
@@ -22,7 +23,7 @@ from nao_sim.people.persons import Person
 from nao_sim.people.photos import DETAIL, Photo, draw_photo, postures, write_photo
 from nao_sim.people.rooms import Item, draw_room
 from nao_sim.people.shots import Shot, draw_cast, draw_shot, generator
-from nao_sim.people.stage import Light, Stage
+from nao_sim.people.stage import Stage
 from nao_sim.people.surface import Array
 from nao_sim.resources import resource
 

@@ -12,13 +12,17 @@ from typing import Any
 import numpy as np
 from numpy.random import Generator
 
+from nao_sim.people.camera import Camera, Light
 from nao_sim.people.clothes import Outfit, draw_outfit
 from nao_sim.people.performance import Performance, perform
 from nao_sim.people.persons import Person, draw_person
 from nao_sim.people.rooms import Item, draw_room
 from nao_sim.people.sensor import Sensor
-from nao_sim.people.stage import Camera, Light
 from nao_sim.resources import resource
+
+# Below this many pixels a metre a coarser figure looks the same, and takes half of the time.
+_FINE_FROM = 260
+COARSE = 0.75
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,13 @@ class Shot:
     def frames(self) -> int:
         """How many frames the clip has."""
         return max(8, round(self.performance.seconds * self.fps))
+
+    @property
+    def detail(self) -> float:
+        """The detail of the figure that the picture can show."""
+        reach = float(np.linalg.norm(np.subtract(self.camera.pos, self.camera.aim)))
+        metres = 2 * reach * self.camera.slope
+        return COARSE if self.height / metres < _FINE_FROM else 1.0
 
 
 @lru_cache

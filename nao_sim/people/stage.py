@@ -7,59 +7,26 @@ alone and lays it over the room by depth. New textures, contexts and compilation
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import cv2
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from nao_sim.people.camera import Camera, Light, View
 from nao_sim.people.clothes import Outfit, dress, thicknesses
 from nao_sim.people.errors import FilmError
 from nao_sim.people.figure import HIDDEN_GROUP, Figure, skeleton
 from nao_sim.people.persons import Person, body_scales
 from nao_sim.people.rooms import BOX, MAX_ITEMS, TEXTURES, Item, texture_images
+from nao_sim.people.shadow import shade_floor
 from nao_sim.people.surface import Array
 from nao_sim.rendering import HOW_TO_GET_GL
 
 MAX_WIDTH, MAX_HEIGHT = 1280, 960
+# No part of a person is further (m) than this from the nearest joint: hair, skirts and finger tips have room to spare.
+_AROUND_JOINTS = 0.4
 Image = NDArray[np.uint8]
-
-
-@dataclass(frozen=True)
-class Camera:
-    """A static camera: position and aim (m), vertical field of view (degrees), roll (degrees)."""
-
-    pos: tuple[float, float, float]
-    aim: tuple[float, float, float]
-    fovy_deg: float
-    roll_deg: float = 0.0
-
-    def frame(self) -> Array:
-        """The camera's axes in the world as columns (3, 3): right, up and backwards."""
-        back = np.subtract(self.pos, self.aim)
-        back /= np.linalg.norm(back)
-        right = np.cross([0.0, 0.0, 1.0], back)
-        right /= np.linalg.norm(right)
-        roll = np.radians(self.roll_deg)
-        turned = np.cos(roll) * right + np.sin(roll) * np.cross(back, right)
-        return np.stack([turned, np.cross(back, turned), back], axis=1)
-
-    def project(self, points: Array) -> Array:
-        """Where world points (..., 3) in m appear (..., 2): right and up of the centre, in half image heights."""
-        seen = np.subtract(points, self.pos) @ self.frame()
-        return np.asarray(seen[..., :2] / -seen[..., 2:] / np.tan(np.radians(self.fovy_deg) / 2))
-
-
-@dataclass(frozen=True)
-class Light:
-    """Two distant lights (unit directions, sRGB strengths) and the light from everywhere."""
-
-    key_dir: tuple[float, float, float]
-    key: tuple[float, float, float]
-    fill_dir: tuple[float, float, float]
-    fill: tuple[float, float, float]
-    ambient: tuple[float, float, float]
 
 
 class Stage:
@@ -73,6 +40,7 @@ class Stage:
         self.model = spec.compile()
         self.data = mujoco.MjData(self.model)
         self._items = [self.model.geom(f"item_{k}").id for k in range(MAX_ITEMS)]
+        self._ankles = [self.model.body(f"{side}_foot").id for side in "rl"]
         # Compiled at the origin they count as sharing the world's frame, and would stay there.
         self.model.geom_sameframe[self._items] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE.value
         try:
@@ -112,8 +80,6 @@ class Stage:
         mujoco.mjr_resizeOffscreen(width, height, self._context)
         self._size = (width, height)
         self._rect = mujoco.MjrRect(0, 0, width, height)
-        self._rgb = np.empty((height, width, 3), np.uint8)
-        self._depth = np.empty((height, width), np.float32)
 
     def cast(self, person: Person, outfit: Outfit) -> None:
         """Put ``person`` in ``outfit`` on the stage."""
@@ -155,26 +121,42 @@ class Stage:
 
     def aim(self, camera: Camera) -> None:
         """Place the camera."""
+        self._camera = camera
         model, k = self.model, self._view.fixedcamid
         model.cam_pos[k], model.cam_fovy[k] = camera.pos, camera.fovy_deg
         mujoco.mju_mat2Quat(model.cam_quat[k], camera.frame().ravel())
 
     def room_image(self) -> Image:
         """Render the empty room with shadows and keep it as the background; RGB (h, w, 3), the first row at the top."""
-        self._render(groups=(1,), person=False, shadows=True)
-        self._room, self._room_depth = self._rgb.copy(), self._depth.copy()
+        self._seen = View(self._camera, *self._size)
+        self._scene_of(groups=(1,), person=False, shadows=True)
+        self._room, self._room_depth = self._pixels(self._rect)
+        self._shaded, self._feet = self._room, np.zeros((2, 2))
         return np.asarray(cv2.flip(self._room, 0), dtype=np.uint8)
 
     def image(self, angles: Array) -> Image:
         """Render the person at ``angles`` (nq,) before the room of :meth:`room_image`; RGB (h, w, 3)."""
         self.data.qpos[:] = angles
-        self._render(groups=(), person=True, shadows=False)
-        picture = self._room.copy()
-        cv2.copyTo(self._rgb, (self._depth < self._room_depth).view(np.uint8), picture)
+        self._scene_of(groups=(), person=True, shadows=False)
+        left, bottom, width, height = self._seen.box(self.data.xpos[1:], _AROUND_JOINTS)
+        person, depth = self._pixels(mujoco.MjrRect(left, bottom, width, height))
+        self._shade()
+        picture = self._shaded.copy()
+        place = slice(bottom, bottom + height), slice(left, left + width)
+        cv2.copyTo(person, (depth < self._room_depth[place]).view(np.uint8), picture[place])
         # OpenGL's rows start at the bottom.
         return np.asarray(cv2.flip(picture, 0), dtype=np.uint8)
 
-    def _render(self, groups: tuple[int, ...], person: bool, shadows: bool) -> None:
+    def _shade(self) -> None:
+        """Lay the spot under the person over the room, anew only when the feet have moved by two pixels."""
+        ankles = self.data.xpos[self._ankles]
+        feet, scale = self._seen.pixels(ankles)
+        if (feet[:, 1] < -scale).all() or np.abs(feet - self._feet).max() < 2.0:
+            return
+        self._shaded, self._feet = self._room.copy(), feet
+        shade_floor(self._shaded, ankles, self._seen)
+
+    def _scene_of(self, groups: tuple[int, ...], person: bool, shadows: bool) -> None:
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
         self._option.geomgroup[:] = 0
@@ -184,7 +166,12 @@ class Stage:
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
         mujoco.mjv_updateScene(self.model, self.data, self._option, None, self._view, everything, self._scene)
         mujoco.mjr_render(self._rect, self._scene, self._context)
-        mujoco.mjr_readPixels(self._rgb, self._depth, self._rect, self._context)
+
+    def _pixels(self, rect: mujoco.MjrRect) -> tuple[Image, NDArray[np.float32]]:
+        """Colours (h, w, 3) and depths (h, w) of a part of what was rendered."""
+        rgb, depth = np.empty((rect.height, rect.width, 3), np.uint8), np.empty((rect.height, rect.width), np.float32)
+        mujoco.mjr_readPixels(rgb, depth, rect, self._context)
+        return rgb, depth
 
 
 def _add_room(spec: mujoco.MjSpec) -> None:

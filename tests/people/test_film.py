@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -9,12 +10,15 @@ import pytest
 
 from nao_sim.people import dataset
 from nao_sim.people.avi import AviWriter
+from nao_sim.people.camera import Camera
 from nao_sim.people.errors import FilmError
 from nao_sim.people.film import roll
 from nao_sim.people.manifest import known_labels, read_manifest
 from nao_sim.people.photos import draw_photo, take_photo
+from nao_sim.people.rooms import BOX, Item
 from nao_sim.people.samples import head_and_hands, sample_labels, sample_photo, sample_shot
-from nao_sim.people.shots import cameras, draw_cast, draw_shot
+from nao_sim.people.shots import COARSE, cameras, draw_cast, draw_shot
+from nao_sim.people.stage import Stage
 from nao_sim.resources import resource
 
 PERSONS = 3
@@ -109,6 +113,51 @@ def test_the_person_is_in_the_picture_and_moves(stage):
     assert frames.shape == (shot.frames, shot.height, shot.width, 3)
     moved = np.abs(frames - np.median(frames, axis=0)).max(axis=(0, 3)) > 40
     assert 0.01 < moved.mean() < 0.6
+
+
+def test_a_coarser_figure_looks_the_same_in_a_small_picture(stage):
+    cast = draw_cast(9, 3)
+    shot = next(
+        shot
+        for shot in (draw_shot(9, "bye_right", cast[1], take) for take in range(20))
+        if shot.detail == COARSE and shot.framing == "half"
+    )
+    angles = shot.performance.angles(np.array([shot.performance.seconds / 2]))[0]
+    shown = []
+    with Stage(COARSE) as coarse:
+        for one in (stage, coarse):
+            one.set_size(shot.width, shot.height)
+            one.cast(shot.person, shot.outfit)
+            one.furnish(shot.room)
+            one.light(shot.light)
+            one.aim(shot.camera)
+            room = one.room_image().astype(int)
+            shown.append(np.abs(one.image(angles).astype(int) - room).max(axis=2) > 12)
+        assert sum(len(p.faces) for p in coarse.figure.parts) < 0.65 * sum(len(p.faces) for p in stage.figure.parts)
+    fine, rough = shown
+    assert (fine & rough).sum() > 0.85 * (fine | rough).sum()
+
+
+def test_large_pictures_show_the_fine_figure():
+    shot = draw_shot(9, "bye_right", draw_cast(9, 3)[1], 0)
+    assert replace(shot, height=960).detail == 1.0
+    assert replace(shot, height=60).detail == COARSE
+
+
+def test_the_floor_is_darker_under_the_feet(stage):
+    shot = sample_shot("kowtow")
+    camera = Camera((4.0, 0.0, 1.2), (0.0, 0.0, 0.8), 40.0)
+    stage.set_size(160, 120)
+    stage.cast(shot.person, shot.outfit)
+    stage.furnish([Item(BOX, (0, 0, -0.1), (9, 9, 0.1), (0.6, 0.6, 0.6))])
+    stage.light(shot.light)
+    stage.aim(camera)
+    room = stage.room_image().astype(int)
+    picture = stage.image(shot.performance.base).astype(int)
+    right, up = camera.project(np.array([0.26, 0.0, 0.0]))
+    row, column = round(60 * (1 - up)), round(80 + 60 * right)
+    assert (picture[row, column] < 0.95 * room[row, column]).all()
+    assert (picture[:, :30] == room[:, :30]).all()
 
 
 def test_samples_in_the_assets_are_what_the_command_makes(stage):

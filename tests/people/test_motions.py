@@ -6,7 +6,7 @@ import pytest
 
 from nao_sim.people.figure import skeleton
 from nao_sim.people.manifest import known_labels
-from nao_sim.people.motions import IRRELEVANT, hand_postures, joints, motions, pose, tables
+from nao_sim.people.motions import IRRELEVANT, drawn_offsets, hand_postures, joints, motions, pose, tables
 from nao_sim.people.performance import CLIP_SECONDS, perform
 from nao_sim.people.photos import postures
 from nao_sim.people.planning import SIZE, TEMPO
@@ -165,3 +165,42 @@ def test_kowtow_bows_and_heads_nod_and_shake():
 def test_clip_lengths_do_not_tell_the_gesture():
     means = [np.mean([p.seconds for p in performances(label, 60)]) for label in DYNAMIC]
     assert max(means) < 1.25 * min(means)
+
+
+@pytest.mark.parametrize(("action", "nearer"), [("walk_closer", True), ("walk_away", False)])
+def test_walks_along_the_line_of_sight(action, nearer):
+    for done in performances(IRRELEVANT, action=action):
+        path = track(done, "pelvis")
+        assert (path[-1, 0] > path[0, 0] + 0.1) == nearer
+        assert np.ptp(path[:, 1]) < 0.35
+
+
+def test_who_ties_a_shoe_goes_down_and_who_bows_stays_on_straight_legs():
+    for done in performances(IRRELEVANT, 12, action="tie_shoe"):
+        bent = np.degrees(done.angles(np.linspace(0, done.seconds, 60))[:, [joints()["r_knee"], joints()["l_knee"]]])
+        assert bent.max() > 30
+    for done in performances("kowtow", 12):
+        bent = np.degrees(done.angles(np.linspace(0, done.seconds, 60))[:, [joints()["r_knee"], joints()["l_knee"]]])
+        assert bent.max() < 15
+
+
+def test_waves_differ_in_height_reach_and_tempo():
+    tops, rates = [], []
+    for done in performances("bye_right", 60):
+        tops.append(track(done, "r_hand")[:, 2].max())
+        strokes = [s.seconds for s in done.strokes if s.seconds < 0.6]
+        rates.append(0.5 / np.median(strokes))
+    assert np.ptp(tops) > 0.4
+    assert np.percentile(rates, 5) < 1.8
+    assert np.percentile(rates, 95) > 3.0
+    assert max(rates) < 4.3
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_offsets_for_both_sides_turn_them_alike_or_against_each_other(mirrored):
+    rng = np.random.default_rng(0)
+    alike = drawn_offsets({"b_elbow": [20, 20]}, mirrored, rng)
+    against = drawn_offsets({"x_elbow": [20, 20]}, mirrored, rng)
+    right, left = joints()["r_elbow"], joints()["l_elbow"]
+    assert alike[right] == alike[left] == pytest.approx(np.radians(20))
+    assert against[right] == -against[left] == pytest.approx(np.radians(-20 if mirrored else 20))
