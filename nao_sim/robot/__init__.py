@@ -13,6 +13,7 @@ from nao_sim.robot.model import model_spec
 from nao_sim.robot.nao import CONTROL_PERIOD_S, Nao
 from nao_sim.robot.postures import Posture, posture, postures
 from nao_sim.robot.sensors import SensorReadings
+from nao_sim.robot.video import Video
 
 __all__ = [
     "ACTUATED",
@@ -30,6 +31,7 @@ __all__ = [
     "TargetError",
     "UnknownNameError",
     "UnstableError",
+    "Video",
     "joint_table",
     "model_spec",
     "posture",

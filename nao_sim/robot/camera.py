@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import atexit
 import weakref
-from typing import Any
 
 import mujoco
 import numpy as np
 
+from nao_sim.robot.canvas import Canvas
 from nao_sim.robot.errors import RenderError, UnknownNameError
 
 WIDTH_PX, HEIGHT_PX = 640, 480
@@ -21,11 +21,11 @@ _HINT = "set MUJOCO_GL=egl (libegl1 libgl1-mesa-dri) or MUJOCO_GL=osmesa (libosm
 
 
 class Cameras:
-    """Renders the cameras of one model; the GL context is made at the first picture."""
+    """Renders the cameras of one model; each size's OpenGL context is made at its first picture."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self._model = model
-        self._renderers: dict[tuple[int, int, bool], mujoco.Renderer] = {}
+        self._canvases: dict[tuple[int, int, bool], Canvas] = {}
 
     @property
     def names(self) -> list[str]:
@@ -36,35 +36,39 @@ class Cameras:
         self, data: mujoco.MjData, camera: str | mujoco.MjvCamera, width: int, height: int, fine: bool
     ) -> np.ndarray:
         """Return one ``(height, width, 3)`` uint8 RGB picture; see :meth:`nao_sim.robot.Nao.camera`."""
-        if isinstance(camera, str) and camera not in self.names:
-            raise UnknownNameError("camera", camera, self.names)
+        view = self.fixed(camera) if isinstance(camera, str) else camera
         key = (width, height, fine)
-        if key not in self._renderers:
-            self._renderers[key] = self._renderer(*key)
-        renderer = self._renderers[key]
-        renderer.update_scene(data, camera)
-        renderer.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = fine
-        return renderer.render().copy()
+        if key not in self._canvases:
+            self._canvases[key] = self._canvas(*key)
+        return self._canvases[key].draw(data, view)
 
-    def _renderer(self, width: int, height: int, fine: bool) -> Any:
-        # Multisampling is fixed when the context is made; in software it costs as much as the picture itself.
-        quality = self._model.vis.quality
-        samples, quality.offsamples = quality.offsamples, quality.offsamples if fine else 0
+    def fixed(self, name: str) -> mujoco.MjvCamera:
+        """Return the model's camera of that name.
+
+        Raises:
+            UnknownNameError: no such camera; the message names the nearest.
+        """
+        number = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_CAMERA, name)
+        if number < 0:
+            raise UnknownNameError("camera", name, self.names)
+        camera = mujoco.MjvCamera()
+        camera.type, camera.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, number
+        return camera
+
+    def _canvas(self, width: int, height: int, fine: bool) -> Canvas:
         try:
-            renderer = mujoco.Renderer(self._model, height, width)
+            canvas = Canvas(self._model, width, height, fine)
         except Exception as error:  # each GL platform fails in its own way
             raise RenderError(f"no {width}x{height} picture: {error}; {_HINT}") from error
-        finally:
-            quality.offsamples = samples
         # A GL context outlives the end of Python badly. Registered after it, this runs before GL shuts down.
         atexit.register(_close, weakref.ref(self))
-        return renderer
+        return canvas
 
     def close(self) -> None:
         """Free the GL contexts; the next picture makes new ones."""
-        for renderer in self._renderers.values():
-            renderer.close()
-        self._renderers.clear()
+        for canvas in self._canvases.values():
+            canvas.close()
+        self._canvases.clear()
 
 
 def _close(cameras: weakref.ref[Cameras]) -> None:

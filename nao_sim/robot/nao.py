@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from nao_sim.robot.camera import HEIGHT_PX, WIDTH_PX, Cameras
+from nao_sim.robot.camera import HEIGHT_PX, RATE_HZ, WIDTH_PX, Cameras
 from nao_sim.robot.command import CommandLayer
 from nao_sim.robot.errors import UnstableError
 from nao_sim.robot.falling import FallDetector
@@ -17,6 +17,7 @@ from nao_sim.robot.model import model_spec
 from nao_sim.robot.placement import place
 from nao_sim.robot.postures import posture as posture_named
 from nao_sim.robot.sensors import SensorReader, SensorReadings
+from nao_sim.robot.video import Video
 
 CONTROL_PERIOD_S = 0.02
 """NAOqi's cycle: a set-point for every motor each 20 ms (thesis app. 1)."""
@@ -77,6 +78,7 @@ class Nao:
         self._sensors = SensorReader(self.model)
         self._falls = FallDetector(self.model)
         self._cameras = Cameras(self.model)
+        self._resets = 0
         self.reset(posture)
 
     @property
@@ -101,6 +103,7 @@ class Nao:
         self._command.reset(angles[[BODY.index(name) for name in ACTUATED]])
         self.data.ctrl[self._ctrl] = self._command.setpoint
         self._falls.reset(stands=wanted.torso is None)
+        self._resets += 1
         mujoco.mj_forward(self.model, self.data)
 
     def set_angles(self, names: str | Sequence[str], angles_rad: ArrayLike) -> None:
@@ -196,18 +199,45 @@ class Nao:
         height: int = HEIGHT_PX,
         fine: bool = False,
     ) -> np.ndarray:
-        """Return what a camera sees, ``(height, width, 3)`` uint8 RGB.
+        """Return what a camera sees at this moment, ``(height, width, 3)`` uint8 RGB.
+
+        :meth:`video` gives pictures at the camera's documented rate instead.
 
         Args:
             name: ``"CameraTop"``, ``"CameraBottom"``, a camera of the scene, or a free camera.
             width, height: pixels.
-            fine: with shadows and smoothed edges, at several times the cost.
+            fine: with shadows, the scene's own sky and smoothed edges, at several times the cost.
 
         Raises:
             UnknownNameError: no such camera.
             RenderError: this machine cannot render; the message says what to install.
         """
         return self._cameras.render(self.data, name, width, height, fine)
+
+    def video(
+        self,
+        name: str | mujoco.MjvCamera = "CameraTop",
+        width: int = WIDTH_PX,
+        height: int = HEIGHT_PX,
+        rate_hz: float = RATE_HZ,
+        fine: bool = False,
+    ) -> Video:
+        """Return a camera that has a new picture every 1/30 s of simulated time, as documented.
+
+        Step the robot as you like and call the video's ``read`` after each step: it returns the new picture, or None
+        where none has fallen due.
+
+        Args:
+            name, width, height, fine: as for :meth:`camera`.
+            rate_hz: images per second, at most the documented 30.
+
+        Raises:
+            RobotError: an impossible rate.
+            UnknownNameError: no such camera.
+        """
+        if isinstance(name, str):
+            self._cameras.fixed(name)
+        return Video(lambda: (self._resets, self.time), lambda: self.camera(name, width, height, fine), rate_hz)
 
     def close(self) -> None:
         """Free the renderers, if any picture was taken."""
