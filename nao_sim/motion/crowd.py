@@ -66,7 +66,7 @@ class Crowd:
         self._low, self._high = table.range_rad().T
         self._layer = CommandLayer("thesis", CONTROL_PERIOD)
         self._setpoint = np.tile(start[self._qpos], (len(trials), 1))
-        self._speed = np.zeros_like(self._setpoint)
+        self._travel = np.zeros_like(self._setpoint)
         self._felt = self._setpoint.copy()
         self._queue = np.repeat(self._setpoint[:, None], int(trials.delay.max(initial=0)) + 1, axis=1)
         self.batch.ctrl = self._setpoint
@@ -120,9 +120,9 @@ class Crowd:
     def step(self, commands: Array) -> None:
         """Send a set-point to each robot, shape (n, 25), and advance one control period."""
         wanted = _clamp_pairs(np.clip(commands, self._low, self._high))
-        before, (glided, _) = self._setpoint, self._layer.glide(self._setpoint, wanted, self._speed)
+        before, (glided, _) = self._setpoint, self._layer.glide(self._setpoint, wanted, self._travel)
         self._setpoint = _clamp_pairs(glided)
-        self._speed = np.abs(self._setpoint - before) / CONTROL_PERIOD
+        self._travel = np.abs(self._setpoint - before)
         self._queue = np.roll(self._queue, 1, axis=1)
         self._queue[:, 0] = self._setpoint
         late = self._queue[np.arange(len(self.trials)), self.trials.delay].copy()

@@ -19,12 +19,9 @@ from nao_sim.robot.joints import ACTUATED, joint_table, resolve
 TOLERANCE_RAD = 1e-9
 """Rounding that a range check forgives; the angle is then put exactly on the limit."""
 
-_CREEP_RAD_S = 0.3
-"""Speed at which a joint may finish the last bit to the end of its range."""
-
 
 @lru_cache(maxsize=256)
-def _actuators(names: tuple[str, ...]) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
+def _actuators(names: tuple[str, ...]) -> tuple[tuple[str, ...], np.ndarray, np.ndarray | slice]:
     """Return, for joint or chain names, the joints, their actuator rows and the places of those rows' values."""
     joints = tuple(resolve(names))
     followers = {j.name: j.follows for j in joint_table().joints if j.follows is not None}
@@ -36,7 +33,7 @@ def _actuators(names: tuple[str, ...]) -> tuple[tuple[str, ...], np.ndarray, np.
             continue
         rows.append(ACTUATED.index(leader))
         places.append(place)
-    return joints, np.array(rows), np.array(places)
+    return joints, np.array(rows), slice(None) if len(places) == len(joints) else np.array(places)
 
 
 class CommandLayer:
@@ -53,13 +50,12 @@ class CommandLayer:
         table = joint_table().select(ACTUATED)
         self.low, self.high = table.range_rad(limits).T.copy()
         self.max_speed = table.max_speed_rad("nominal")
-        acceleration = np.array([joint.acceleration for joint in table.joints])
-        self._period = period
-        self._gain = acceleration * period
-        # Stopping from v takes v² / 2a plus the period it goes on; solved for v, times the period.
-        self._slow = acceleration * period**2 / 2
-        self._slow_squared, self._brake = self._slow**2, 2 * acceleration * period**2
-        self._speed = np.zeros(len(ACTUATED))
+        # From here on in radians a period: what is added to a set-point.
+        acceleration = np.array([joint.acceleration for joint in table.joints]) * period**2
+        self._most, self._gain = self.max_speed * period, acceleration
+        # Stopping takes v² / 2a, and the period it goes on before; solved for v.
+        self._slow, self._slow_squared, self._brake = acceleration / 2, acceleration**2 / 4, 2 * acceleration
+        self._travel = np.zeros(len(ACTUATED))
         self.targets = np.zeros(len(ACTUATED))
         self.setpoint = np.zeros(len(ACTUATED))
 
@@ -67,7 +63,7 @@ class CommandLayer:
         """Start from ``(25,)`` angles: targets and set-point alike."""
         self.targets = clamp_pairs(np.clip(angles, self.low, self.high))
         self.setpoint = self.targets.copy()
-        self._speed = np.zeros(len(ACTUATED))
+        self._travel = np.zeros(len(ACTUATED))
 
     def set(self, names: str | Sequence[str], angles: ArrayLike) -> None:
         """Set the targets of some joints, rad (hands: open fraction).
@@ -93,10 +89,12 @@ class CommandLayer:
 
     def set_all(self, targets: np.ndarray) -> None:
         """Set all ``(25,)`` targets at once, in ``ACTUATED`` order; raises as :meth:`set` does."""
-        if np.shape(targets) != self.targets.shape:
-            raise TargetError(f"targets have shape {np.shape(targets)}; give {self.targets.shape}, one per motor")
-        inside = np.minimum(np.maximum(targets, self.low), self.high)
-        if not (inside == targets).all():
+        targets = np.asarray(targets, dtype=float)
+        if targets.shape != self.targets.shape:
+            raise TargetError(f"targets have shape {targets.shape}; give {self.targets.shape}, one per motor")
+        # fmax puts a number where there is none, so what is not finite differs, too. Bytes are quickest to compare.
+        inside = np.fmin(np.fmax(targets, self.low), self.high)
+        if inside.tobytes() != targets.tobytes():
             self._forgive(targets, inside)
         self.targets = clamp_pairs(inside)
 
@@ -116,25 +114,23 @@ class CommandLayer:
         Its speed is at most the motor's nominal one, grows no faster than the joint's acceleration, and falls towards
         the ends of the range, so that no joint runs into its stop.
         """
-        previous, period = self.setpoint, self._period
-        setpoint, speed = self.glide(previous, self.targets, self._speed)
-        hold_pairs(previous, setpoint, self.targets, speed * period)
-        self._speed = np.abs(setpoint - previous) / period
+        previous = self.setpoint
+        setpoint, most = self.glide(previous, self.targets, self._travel)
+        hold_pairs(previous, setpoint, self.targets, most)
+        self._travel = np.abs(setpoint - previous)
         self.setpoint = setpoint
         return setpoint
 
-    def glide(self, setpoint: np.ndarray, targets: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return set-points one period later, anti-collision tables left out, and the speeds they were held to.
+    def glide(self, setpoint: np.ndarray, targets: np.ndarray, travel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return set-points one period later, anti-collision tables left out, and the most they could have travelled.
 
         Args:
             setpoint, targets: ``(..., 25)`` now, and where to.
-            speed: ``(..., 25)`` of the step before, rad/s.
+            travel: ``(..., 25)`` how far the set-point went in the period before, rad.
         """
-        speed = np.minimum(self.max_speed, speed + self._gain)
+        most = np.minimum(self._most, travel + self._gain)
         change = targets - setpoint
-        room = np.maximum(np.where(change > 0, self.high - setpoint, setpoint - self.low), 0)
+        room = np.abs(np.where(change > 0, self.high, self.low) - setpoint)
         # A joint may run only as fast as it can still stop before the end of its range.
-        stopping = np.sqrt(self._slow_squared + self._brake * room) - self._slow
-        creeping = np.minimum(room, _CREEP_RAD_S * self._period)
-        reach = np.minimum(speed * self._period, np.maximum(stopping, creeping))
-        return setpoint + np.minimum(np.maximum(change, -reach), reach), speed
+        reach = np.minimum(most, np.sqrt(self._slow_squared + self._brake * room) - self._slow)
+        return setpoint + np.minimum(np.maximum(change, -reach), reach), most

@@ -16,14 +16,14 @@ from nao_sim.robot.joints import ACTUATED, BODY
 from nao_sim.robot.model import model_spec
 from nao_sim.robot.placement import place
 from nao_sim.robot.postures import posture as posture_named
-from nao_sim.robot.sensors import SensorReader, SensorReadings
+from nao_sim.robot.sensors import SensorReader, SensorReadings, consecutive
 from nao_sim.robot.video import Video
 
 CONTROL_PERIOD_S = 0.02
 """NAOqi's cycle: a set-point for every motor each 20 ms (thesis app. 1)."""
 
 _NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
-_BAD_STATE = [mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC]
+_BAD_STATE = slice(int(mujoco.mjtWarning.mjWARN_BADQPOS), int(mujoco.mjtWarning.mjWARN_BADQACC) + 1)
 
 
 class Nao:
@@ -73,7 +73,7 @@ class Nao:
         ids = [self.model.joint(name).id for name in ACTUATED]
         self._qpos = self.model.jnt_qposadr[ids]
         self._dof = self.model.jnt_dofadr[ids]
-        self._ctrl = _consecutive([self.model.actuator(name).id for name in ACTUATED])
+        self._ctrl = consecutive([self.model.actuator(name).id for name in ACTUATED])
         self._torso = self.model.body("torso").id
         self._sensors = SensorReader(self.model)
         self._falls = FallDetector(self.model)
@@ -172,7 +172,7 @@ class Nao:
             UnstableError: the state is no longer finite; reset, and look at what was commanded.
         """
         model, data, option = self.model, self.data, self.model.opt
-        ctrl, motors, warnings = data.ctrl, self._ctrl, data.warning.number
+        ctrl, motors, bad = data.ctrl, self._ctrl, data.warning.number[_BAD_STATE]
         for _ in range(n):
             start = self._command.setpoint
             ramp = start + self._ramp * (self._command.advance() - start)
@@ -184,8 +184,7 @@ class Nao:
             option.disableflags &= ~_NO_SENSORS
             ctrl[motors] = ramp[-1]
             mujoco.mj_step(model, data)
-            counts = warnings.tolist()
-            if any(counts[kind] for kind in _BAD_STATE):
+            if any(bad.tolist()):
                 raise UnstableError(f"the simulation became unstable at {data.time:.3f} s; reset and check the targets")
 
     def sensors(self) -> SensorReadings:
@@ -248,10 +247,3 @@ class Nao:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _consecutive(ids: list[int]) -> slice | np.ndarray:
-    """Return a slice where the ids allow it; it reads and writes several times faster than a list of them."""
-    if ids == list(range(ids[0], ids[0] + len(ids))):
-        return slice(ids[0], ids[0] + len(ids))
-    return np.array(ids)

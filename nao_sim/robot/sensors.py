@@ -54,7 +54,7 @@ class SensorReader:
     """Reads the sensors of one model; addresses are looked up once."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        self._fsr = _addresses(model, FSR)
+        self._fsr = consecutive(_addresses(model, FSR).tolist())
         self._bumpers = _addresses(model, BUMPERS)
         self._touch = _addresses(model, TOUCH)
         self._gyro = _addresses(model, ("Gyrometer",))[0]
@@ -64,7 +64,7 @@ class SensorReader:
 
     def fsr(self, data: mujoco.MjData) -> np.ndarray:
         """Return the ``(8,)`` foot forces in N, in ``FSR`` order."""
-        return data.sensordata[self._fsr]
+        return data.sensordata[self._fsr].copy()
 
     def read(self, data: mujoco.MjData) -> SensorReadings:
         """Return all sensors now."""
@@ -73,7 +73,7 @@ class SensorReader:
             gyro=values[self._gyro : self._gyro + 3].copy(),
             accel=values[self._accel : self._accel + 3].copy(),
             torso_rpy=roll_pitch_yaw(values[self._quat : self._quat + 4]),
-            fsr=values[self._fsr],
+            fsr=values[self._fsr].copy(),
             bumpers=dict(zip(BUMPERS, (values[self._bumpers] > 0).tolist(), strict=True)),
             touch=dict(zip(TOUCH, (values[self._touch] > 0).tolist(), strict=True)),
             sonar=self._sonar.read(data),
@@ -82,6 +82,13 @@ class SensorReader:
 
 def _addresses(model: mujoco.MjModel, names: tuple[str, ...]) -> np.ndarray:
     return np.array([model.sensor(name).adr[0] for name in names])
+
+
+def consecutive(ids: list[int]) -> slice | np.ndarray:
+    """Return a slice where the ids allow it; it reads and writes several times faster than a list of them."""
+    if ids == list(range(ids[0], ids[0] + len(ids))):
+        return slice(ids[0], ids[0] + len(ids))
+    return np.array(ids)
 
 
 def roll_pitch_yaw(quat: np.ndarray) -> np.ndarray:
