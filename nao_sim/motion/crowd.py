@@ -54,7 +54,7 @@ class Crowd:
     """
 
     def __init__(self, trials: Trials, threads: int = 0) -> None:
-        with Nao(fingers=False) as nao:
+        with Nao(fingers=False, shells=False) as nao:
             self.model, start = nao.model, nao.data.qpos.copy()
         self.trials = trials
         self.batch = Batch(self.model, len(trials), threads)

@@ -39,13 +39,7 @@ class Canvas:
         self._model, self._fine = model, fine
         self._gl = mujoco.GLContext(width, height)
         self._gl.make_current()
-        quality = model.vis.quality
-        # Multisampling is fixed when the context is made; in software it costs as much as the picture itself.
-        samples, quality.offsamples = quality.offsamples, quality.offsamples if fine else 0
-        try:
-            self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
-        finally:
-            quality.offsamples = samples
+        self._context = _context(model, fine)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
         # Clearing a larger buffer than the picture took half a millisecond.
         mujoco.mjr_resizeOffscreen(width, height, self._context)
@@ -107,6 +101,18 @@ class Canvas:
         sky.category = mujoco.mjtCatBit.mjCAT_DECOR
         sky.emission, sky.specular, sky.shininess = _SKY_GLOW, 0, 0
         scene.ngeom += 1
+
+
+def _context(model: mujoco.MjModel, fine: bool) -> mujoco.MjrContext:
+    """Upload the model; without multisampling, which in software costs as much as the picture itself, unless fine."""
+    quality = model.vis.quality
+    samples, shadows = quality.offsamples, quality.shadowsize
+    if not fine:
+        quality.offsamples = quality.shadowsize = 0
+    try:
+        return mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+    finally:
+        quality.offsamples, quality.shadowsize = samples, shadows
 
 
 def _coarsen_textures(context: mujoco.MjrContext) -> None:
