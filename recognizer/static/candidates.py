@@ -13,13 +13,12 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from recognizer.finder import Body
 from recognizer.static import background
 from recognizer.static.errors import HandTooSmallError, NoHandError, NoSkinError
 from recognizer.static.hand import most_featured
 from recognizer.static.noise import clean
 from recognizer.static.palm import HandFrame, hand_frames
-from recognizer.static.person import CERTAIN, HAND, SMALLEST, find_person, look_closer, places
+from recognizer.static.person import CERTAIN, SMALLEST, Person, find_person, look_closer, places
 from recognizer.static.skin import gray_world, gray_world_gains, skin_mask
 from recognizer.static.types import Floats, Image, Mask
 
@@ -28,7 +27,6 @@ MOST_OBJECTS = 4  # of one segmentation
 SMALLEST_OBJECT = 0.004  # of the picture's area
 CLOSER = 0.6  # of the longer side: smaller objects are cut out of the photo and looked at in detail
 PLAIN = 0.7  # share of the border that one smooth colour surface must explain
-ARM = 3.0  # hand lengths: longer than a hand with its forearm
 TOO_MUCH = 0.8  # of the picture's area: then the background was taken for skin
 
 
@@ -66,33 +64,44 @@ def candidates(bgr: Image) -> list[Candidate]:
     return close_up(bgr) if person is None else of_person(bgr, person)
 
 
-def of_person(bgr: Image, person: Body) -> list[Candidate]:
-    """Return the hands of a person in view.
-
-    Where the person is in doubt, so are objects larger than an arm: they would belong to no such person.
-    """
+def of_person(bgr: Image, person: Person) -> list[Candidate]:
+    """Return the hands of a person in view, divided from their surroundings; in doubt also objects of a close-up."""
     height, width = bgr.shape[:2]
     size = np.array([width, height, width, height])
-    arm = ARM * HAND * person.head
-    try:
-        doubtful = person.score < CERTAIN
-        found = [c for c in close_up(bgr) if max((c.box * size)[2:]) > arm] if doubtful else []
-    except NoSkinError:
-        found = []
-    hands = places(bgr, person) if HAND * person.head >= SMALLEST else []
+    found = beside_person(bgr, person)
     found += [
         Candidate("person", number, close.image, close.mask, close.frame, close.window / size)
-        for number, place in enumerate(hands)
+        for number, place in enumerate(places(person))
         for close in look_closer(bgr, place)
     ]
-    if found:
-        return found
-    if HAND * person.head < SMALLEST:
+    if not found:
+        check_size(person)
+        raise NoHandError("a person is in view, but no raised hand off the face; show the hand beside the head")
+    return found
+
+
+def beside_person(bgr: Image, person: Person) -> list[Candidate]:
+    """Return what a close-up would show where the person is in doubt: objects that fill the picture."""
+    if person.score >= CERTAIN:
+        return []
+    size = np.array(bgr.shape[1::-1])
+    try:
+        return [c for c in close_up(bgr) if max(c.box[2:] * size) >= CLOSER * max(size)]
+    except NoSkinError:
+        return []
+
+
+def check_size(person: Person) -> None:
+    """Refuse a person too far away.
+
+    Raises:
+        HandTooSmallError: the hand is too small to tell its fingers apart.
+    """
+    if person.hand < SMALLEST:
         raise HandTooSmallError(
-            f"the hand is about {HAND * person.head:.0f} pixels long, too small to tell its fingers apart; "
+            f"the hand is about {person.hand:.0f} pixels long, too small to tell its fingers apart; "
             f"come closer, so that it has {SMALLEST} at least"
         )
-    raise NoHandError("a person is in view, but no raised hand off the face; show the hand beside the head")
 
 
 def close_up(bgr: Image) -> list[Candidate]:

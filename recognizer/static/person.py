@@ -1,8 +1,9 @@
-"""A whole person in view: the head is found first, and hands are looked for off it, at the size that it tells.
+"""A whole person in view: whether there is one, where its hands are, and each hand divided from what is around it.
 
-Skin is what is coloured like the face; the palm is the widest place near the upper end of what stands out as skin.
-There a window as large as a hand is cut out, and the hand in it is divided from what is around it by local contrast,
-so that a sleeve or a skin-coloured wall elsewhere in the room does not matter.
+The head and the raised hand are found together (`hand_finder`), so that neither a sleeve nor a skin-coloured wall
+elsewhere in the room matters. At each spot a window as large as a hand is cut out, and the hand in it is divided from
+arm, face and room by local contrast: that is what pictures of the stages show, and what databases with postures of
+their own are asked with.
 """
 
 from __future__ import annotations
@@ -13,27 +14,20 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from recognizer.finder import Body, best_bodies, score_maps, template
+from recognizer.finder import Body
 from recognizer.static.contrast import divide
+from recognizer.static.hand_finder import HAND, Spot, find_hands, find_heads
 from recognizer.static.palm import HandFrame, hand_frames
-from recognizer.static.skin import gray_world, skin_mask
 from recognizer.static.types import Floats, Image, Mask
 
-SEARCH_ROWS = 240  # rows at which the head is looked for
-SURE = 0.4  # score of the template from which a head is believed
-CERTAIN = 1.0  # score from which it is no part of a close-up that happens to look like a head
-HEAD_SHARE = (0.09, 0.27)  # height of a head in picture heights: smaller is noise, larger is no person in view
-HAND = 0.95  # length of a hand over the height of a head as the finder measures it
-REACH = (2.5, 0.7, 1.0)  # heads sideways, up and down from the head's centre where a raised hand can be
-OFF_HEAD = (0.55, 0.8)  # half axes, in heads, of the ellipse that is head and neck
-PALM = 0.15  # hand lengths: the blur at which a palm stands out
-LEAST_CONTRAST = 0.08
-SAME = 0.25  # hand lengths: palms nearer than this are one
-MOST = 12
-LIKE_FACE = (1.0, 2.5)  # distances in colour from the face that are tried as skin
-SMALLEST = 36  # pixels of a hand's length: below, fingers are some three pixels wide
+SURE = 0.25  # score of a head from which a person is believed to be in view
+CERTAIN = 1.4  # score from which it is no part of a close-up that happens to look like a head
+SEVERAL = 1.0  # score from which a further head is another person
+SMALLEST = 32  # pixels of a hand's expected length: below, fingers are some three pixels wide
+SHOWN = 4  # spots that are divided from their surroundings
 WINDOW = 1.6  # hand lengths: side of what is cut out around a hand
 WINDOW_SIDE = 200  # pixels it is enlarged to
+PALM_BELOW = 0.2  # hand lengths from the knuckle that a spot marks to the palm's middle
 CORE = 0.09  # hand lengths around the palm's middle that are hand for sure
 # What a hand is like at the size that the head tells: palm radius in hand lengths, share of the window that it fills
 # (with some forearm), and how far the palm may be from where it was looked for, in hand lengths.
@@ -41,7 +35,23 @@ PALM_RADIUS = (0.12, 0.3)
 FILLED = (0.06, 0.25)
 STRAYED = 0.25
 UPRIGHT = np.radians(70)
-COLOUR_SCALE = (22.0, 5.0, 5.0)  # Lab: hand and face are lit differently, more so than they are coloured differently
+
+
+@dataclass(frozen=True)
+class Person:
+    """A person in view.
+
+    Attributes:
+        score: how sure; see `SURE` and `CERTAIN`.
+        hand: expected length of its hands, pixels.
+        spots: where its raised hands may be, best first; none when the hand is too small.
+        persons: how many heads are in view, this one included.
+    """
+
+    score: float
+    hand: float
+    spots: tuple[Spot, ...]
+    persons: int = 1
 
 
 @dataclass(frozen=True)
@@ -62,32 +72,19 @@ class Place:
     hand: float  # expected length of the hand, wrist to fingertips, pixels of the photo
 
 
-def find_person(bgr: Image) -> Body | None:
-    """Return the head of the person in view, in pixels of the photo; None when only a hand or nobody is."""
-    grey = cv2.cvtColor(bgr, cv2.COLOR_BGR2GRAY)
-    scale = min(1.0, SEARCH_ROWS / grey.shape[0])
-    small = cv2.resize(grey, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA) if scale < 1 else grey
-    low, high = (share * small.shape[0] for share in HEAD_SHARE)
-    maps = [(head, scores) for head, scores in score_maps(small, *template()) if low <= head <= high]
-    found = best_bodies(maps, (small.shape[1], small.shape[0]), 1)
-    if not found or found[0].score < SURE:
+def find_person(bgr: Image) -> Person | None:
+    """Return the person in view, in pixels of the photo; None when only a hand or nobody is."""
+    heads: list[Body] = find_heads(bgr)
+    if not heads or heads[0].score < SURE:
         return None
-    head = found[0]
-    return Body(head.x / scale, head.y / scale, head.head / scale, head.score)
+    hand = HAND * heads[0].head
+    spots = tuple(find_hands(bgr, heads)) if hand >= SMALLEST else ()
+    return Person(heads[0].score, hand, spots, max(1, sum(head.score >= SEVERAL for head in heads)))
 
 
-def places(bgr: Image, person: Body) -> list[Place]:
-    """Return where raised hands may be, off the head and within reach: most like skin before other things first."""
-    hand = HAND * person.head
-    allowed = _within_reach(bgr.shape[:2], person)
-    found: list[tuple[float, Floats]] = []
-    for likeness in _likenesses(bgr, person):
-        found += _palms(likeness, allowed, hand)
-    kept: list[Place] = []
-    for _, palm in sorted(found, key=lambda peak: -peak[0]):
-        if len(kept) < MOST and all(np.hypot(*(palm - other.palm)) > SAME * hand for other in kept):
-            kept.append(Place(palm, hand))
-    return kept
+def places(person: Person) -> list[Place]:
+    """Return where the palms of a person's raised hands may be, likeliest first."""
+    return [Place(np.array([spot.x, spot.y + PALM_BELOW * spot.hand]), spot.hand) for spot in person.spots[:SHOWN]]
 
 
 def look_closer(bgr: Image, place: Place) -> Iterator[Close]:
@@ -108,37 +105,3 @@ def look_closer(bgr: Image, place: Place) -> Iterator[Close]:
         strayed = float(np.hypot(*(frame.centre - palm))) / hand
         if abs(frame.up_rad) < UPRIGHT and PALM_RADIUS[0] < frame.radius / hand < PALM_RADIUS[1] and strayed < STRAYED:
             yield Close(image, mask, frame, np.array([*corner, side, side]))
-
-
-def _likenesses(bgr: Image, person: Body) -> Iterator[Floats]:
-    """Yield how much each pixel is coloured like the face, 0 to 1, strictly and generously; then the box of eq. 1."""
-    lab = _lab(cv2.GaussianBlur(bgr, (0, 0), 0.8))
-    rows, columns = np.indices(bgr.shape[:2])
-    face = ((columns - person.x) / 0.22) ** 2 + ((rows - person.y) / 0.3) ** 2 < person.head**2
-    if face.any():
-        distance = np.sqrt((((lab - np.median(lab[face], axis=0)) / COLOUR_SCALE) ** 2).sum(axis=2))
-        for limit in LIKE_FACE:
-            yield np.exp(-((distance / limit) ** 2))
-    yield skin_mask(gray_world(bgr)).astype(float)
-
-
-def _palms(likeness: Floats, allowed: Mask, hand: float) -> list[tuple[float, Floats]]:
-    """Return peaks, with their height, of skin in a palm's disc over skin in the ring around it."""
-    palm = cv2.GaussianBlur(likeness, (0, 0), PALM * hand)
-    around = cv2.GaussianBlur(likeness, (0, 0), 3 * PALM * hand)
-    contrast = np.where(allowed, palm - around, 0.0)
-    size = 2 * round(SAME * hand / 2) + 1
-    peaks = (contrast >= cv2.dilate(contrast, np.ones((size, size), np.uint8))) & (contrast > LEAST_CONTRAST)
-    return [(float(contrast[y, x]), np.array([x, y], float)) for y, x in np.argwhere(peaks)]
-
-
-def _within_reach(shape: tuple[int, ...], person: Body) -> Mask:
-    rows, columns = np.indices(shape)
-    x, y = (columns - person.x) / person.head, (rows - person.y) / person.head
-    aside, above, below = REACH
-    off_head = (x / OFF_HEAD[0]) ** 2 + (y / OFF_HEAD[1]) ** 2 > 1
-    return off_head & (np.abs(x) < aside) & (y > -above) & (y < below)
-
-
-def _lab(bgr: Image) -> np.ndarray:
-    return cv2.cvtColor(bgr.astype(np.float32) / 255, cv2.COLOR_BGR2LAB)

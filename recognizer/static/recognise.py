@@ -13,10 +13,11 @@ from recognizer.database import IRRELEVANT, Database
 from recognizer.decision import Decision
 from recognizer.errors import DatabaseError
 from recognizer.recognition import Recognition
-from recognizer.static import baseline, descriptors
-from recognizer.static.candidates import Candidate, candidates
+from recognizer.static import baseline, descriptors, person_postures
+from recognizer.static.candidates import Candidate, beside_person, candidates, check_size
 from recognizer.static.errors import HandTooSmallError, NoHandError
 from recognizer.static.methods import method_of
+from recognizer.static.person import Person, find_person
 from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.types import Image
 
@@ -100,6 +101,10 @@ class PhotoRecognizer:
         if self.method.name == baseline.METHOD:
             return self.model.decide(baseline.vector(image), among), ()
         try:
+            person = find_person(image)
+            if person is not None and set(self.labels) <= person_postures.known_labels():
+                several = (f"{person.persons} persons in view; the answer is for the clearest hand",)
+                return self._decide_person(image, person, among), several if person.persons > 1 else ()
             seen = self.look(image, among)
         except HandTooSmallError as error:
             return self._not_seen(str(error)), ()
@@ -111,20 +116,34 @@ class PhotoRecognizer:
             )
         return best.decision, _warnings(seen)
 
+    def _decide_person(self, image: Image, person: Person, among: set[str] | None) -> Decision:
+        """Name the likeliest hand of a person in view; in doubt about the person, a close-up's hand comes first."""
+        close = self._seen(beside_person(image, person), among)
+        if close and not close[0].decision.rejected:
+            return close[0].decision
+        check_size(person)
+        if not person.spots:
+            raise NoHandError("a person is in view, but no raised hand off the face; show the hand beside the head")
+        among = set(self.labels) if among is None else among
+        return person_postures.decide(person_postures.shares(image, person.spots[0]), among)
+
     def _not_seen(self, reason: str) -> Decision:
         return Decision(None, IRRELEVANT, IRRELEVANT, True, reason, float("inf"), self.model.threshold_, {}, ())
 
     def look(self, image: Image, among: set[str] | None = None) -> list[Seen]:
         """Return all candidates of a photo, the best hand first."""
+        return self._seen(candidates(image), among)
+
+    def _seen(self, found: list[Candidate], among: set[str] | None) -> list[Seen]:
         seen = []
-        for candidate in candidates(image):
+        for candidate in found:
             decision = self.model.decide(descriptors.describe(candidate.mask, candidate.frame), among)
             nearest = decision.neighbours[0].distance
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
             seen.append(Seen(candidate, decision, float(cost * (REJECTED_COST if decision.rejected else 1.0))))
         seen.sort(key=lambda s: s.cost)
-        return _posture_first(seen)
+        return _posture_first(seen) if seen else []
 
     def _allowed(self, among: Iterable[str] | None) -> set[str] | None:
         if among is None:

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from recognizer.finder import Body
-from recognizer.static import candidates
+from recognizer.static import candidates, person_postures, recognise, windows
 from recognizer.static.contrast import divide
 from recognizer.static.errors import NoHandError
-from recognizer.static.person import HAND, find_person, look_closer, places
+from recognizer.static.hand_finder import HAND, Spot, face_colour, find_hands, search, weights
+from recognizer.static.person import SMALLEST, Person, Place, find_person, look_closer, places
 
 from .conftest import PAPER_BGR, SKIN_BGR, unseen_hands
 
@@ -47,29 +48,43 @@ def person_photo(
 
 def with_head(monkeypatch: pytest.MonkeyPatch, body: Body) -> None:
     """Say where the head is, as drawn; the finder has learnt real outlines, not this drawing."""
-    monkeypatch.setattr(candidates, "find_person", lambda picture: body)
+    for module in (candidates, recognise):
+        monkeypatch.setattr(module, "find_person", lambda picture: seen(picture, body))
+
+
+def seen(picture: np.ndarray, body: Body) -> Person:
+    hand = HAND * body.head
+    return Person(2.0, hand, tuple(find_hands(picture, [body])) if hand >= SMALLEST else ())
 
 
 @pytest.mark.parametrize("skin", [SKIN_BGR, (45, 62, 92)])
 def test_a_place_is_the_hand_and_none_is_the_face(skin):
     picture, body, middle = person_photo(unseen_hands("stop_hand", 1, seed=21)[0], 80.0, skin)
-    found = places(picture, body)
+    found = places(seen(picture, body))
     assert found
     assert min(np.hypot(*(place.palm - middle)) for place in found) < 0.4 * found[0].hand
     assert all(np.hypot(place.palm[0] - body.x, place.palm[1] - body.y) > 0.5 * body.head for place in found)
 
 
-def test_the_hand_and_not_the_face_is_named(monkeypatch, recognizer):
-    named = []
-    for name in ("stop_hand", "victory", "pointing", "four"):
-        for hand in unseen_hands(name, 2, seed=21):
-            picture, body, _ = person_photo(hand, 80.0)
-            with_head(monkeypatch, body)
+def test_hands_of_filmed_persons_are_named_and_seldom_wrongly(recognizer):
+    """Ten whole persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
+    from nao_sim.people import photos
+    from nao_sim.people.dataset import plan
+    from nao_sim.people.stage import Stage
+
+    found = []
+    with Stage(photos.DETAIL) as stage:
+        shots = (job.photo() for job in plan(8, 2, 77, ["stop_hand", "victory", "pointing", "round"]))
+        for photo in [p for p in shots if not p.close and p.height >= 480][:10]:
             try:
-                named.append(recognizer.recognize(picture).nearest == name)
+                label = recognizer.recognize(photos.take_photo(stage, photo)).label
             except NoHandError:
-                named.append(False)
-    assert np.mean(named) >= 0.6, named
+                label = None
+            found.append((label == photo.label, label not in (None, photo.label)))
+    right, wrong = np.mean(found, axis=0)
+    assert len(found) >= 5
+    assert right >= 0.4, found
+    assert wrong <= 0.3, found
 
 
 def test_a_hand_too_small_for_its_fingers_is_rejected_for_that_reason(monkeypatch, recognizer):
@@ -106,7 +121,52 @@ def test_local_contrast_follows_shading_where_one_colour_does_not(beside):
 
 
 def test_a_place_without_a_hand_yields_nothing():
-    from recognizer.static.person import Place
-
     flat = np.full((200, 200, 3), 180, np.uint8)
     assert list(look_closer(flat, Place(np.array([100.0, 100.0]), 60.0))) == []
+
+
+def test_a_template_finds_what_it_was_cut_from():
+    """Independent of what is shipped: a template that is one window scores highest where that window stands."""
+    rng = np.random.default_rng(3)
+    picture = cv2.GaussianBlur(rng.integers(0, 256, (240, 320, 3), np.uint8), (0, 0), 4)
+    picture = cv2.normalize(picture, None, 0, 255, cv2.NORM_MINMAX)
+    head = Body(160.0, 100.0, 50.0, 0.0)
+    place = np.array([250.0, 90.0])
+    own = windows.coarse_vector(picture, place, HAND * head.head, face_colour(picture, head))
+    template = (own - own.mean()).reshape(windows.COARSE, windows.COARSE, windows.CHANNELS)
+    best = search(picture, head, template / np.linalg.norm(template), 0.0)[0]
+    assert np.hypot(*(best.middle - place)) < 0.15 * best.hand
+
+
+def test_a_mirrored_window_is_the_window_of_the_mirrored_photo():
+    photo = person_photo(unseen_hands("victory", 1, seed=21)[0], 80.0)[0]
+    place = np.array([220.0, 120.0])
+    other = np.array([photo.shape[1] - 1 - place[0], place[1]])
+    ours = windows.mirrored(windows.fine_vector(photo, place, 70.0)[None])[0]
+    theirs = windows.fine_vector(np.ascontiguousarray(photo[:, ::-1]), other, 70.0)
+    assert np.corrcoef(ours, theirs)[0, 1] > 0.98
+
+
+def test_shares_sum_to_one_and_context_narrows_them():
+    picture, _, middle = person_photo(unseen_hands("stop_hand", 1, seed=21)[0], 80.0)
+    found = person_postures.shares(picture, Spot(middle[0], middle[1], 70.0, 1.0, np.zeros(3)))
+    assert sum(found.by_label.values()) == pytest.approx(1.0)
+    assert set(found.by_label) == person_postures.known_labels() | {"irrelevant", "no hand"}
+    assert len(weights()["classes"]) == weights()["fine_weights"].shape[1]
+    narrow = person_postures.decide(found, {"victory", "four"})
+    assert narrow.nearest in ("victory", "four", "irrelevant")
+    assert sum(narrow.votes.values()) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("shares", "label", "said"), [
+    ({"four": 0.7, "irrelevant": 0.2, "no hand": 0.1}, "four", ""),
+    ({"four": 0.45, "three": 0.35, "no hand": 0.2}, None, "45%"),
+    ({"four": 0.1, "irrelevant": 0.8, "no hand": 0.1}, None, "none of the postures"),
+    ({"four": 0.1, "irrelevant": 0.1, "no hand": 0.8}, None, "no raised hand"),
+])  # fmt: skip
+def test_doubt_other_hands_and_no_hand_are_rejected_with_the_reason(shares, label, said):
+    spot = Spot(0.0, 0.0, 50.0, 0.0, np.zeros(3))
+    answer = person_postures.decide(person_postures.Shares(spot, shares))
+    assert answer.label == label
+    assert answer.rejected == (label is None)
+    assert said in answer.reason
