@@ -40,6 +40,11 @@ class Candidate:
     mask: Mask  # (h, w)
     frame: HandFrame
     box: Floats  # (4,) x, y, width, height of the object as fractions of the photo
+    size: tuple[int, int]  # width and height of the photo
+
+    def fills(self) -> bool:
+        """Whether the object is as long as in a close-up."""
+        return bool(max(self.box[2:] * self.size) >= CLOSER * max(self.size))
 
 
 def to_work_size(bgr: Image, side: int = WORK_SIDE) -> Image:
@@ -70,7 +75,7 @@ def of_person(bgr: Image, person: Person) -> list[Candidate]:
     size = np.array([width, height, width, height])
     found = beside_person(bgr, person)
     found += [
-        Candidate("person", number, close.image, close.mask, close.frame, close.window / size)
+        Candidate("person", number, close.image, close.mask, close.frame, close.window / size, (width, height))
         for number, place in enumerate(places(person))
         for close in look_closer(bgr, place)
     ]
@@ -84,9 +89,8 @@ def beside_person(bgr: Image, person: Person) -> list[Candidate]:
     """Return what a close-up would show where the person is in doubt: objects that fill the picture."""
     if person.score >= CERTAIN:
         return []
-    size = np.array(bgr.shape[1::-1])
     try:
-        return [c for c in close_up(bgr) if max(c.box[2:] * size) >= CLOSER * max(size)]
+        return [c for c in close_up(bgr) if c.fills()]
     except NoSkinError:
         return []
 
@@ -124,6 +128,11 @@ def close_up(bgr: Image) -> list[Candidate]:
             "use more light, or a background unlike skin"
         )
     return found
+
+
+def is_plain(bgr: Image) -> bool:
+    """Whether one smooth colour surface explains the picture's border, as where a hand is held before a wall."""
+    return background.departure(to_work_size(bgr)).plainness >= PLAIN
 
 
 def segmentations(bgr: Image, gains: Floats) -> Iterator[tuple[str, Mask]]:
@@ -170,7 +179,7 @@ def _closer(bgr: Image, work: Image, gains: Floats, name: str, number: int, piec
             return
         mask = objects(closer)[0] if objects(closer) else closer
     for frame in hand_frames(mask):
-        yield Candidate(name, number, image, mask, frame, box)
+        yield Candidate(name, number, image, mask, frame, box, (bgr.shape[1], bgr.shape[0]))
 
 
 def _cut_out(bgr: Image, box: Floats, margin: float = 0.15) -> Image:

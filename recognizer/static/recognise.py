@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import time
 from collections.abc import Iterable
@@ -14,7 +15,7 @@ from recognizer.decision import Decision
 from recognizer.errors import DatabaseError
 from recognizer.recognition import Recognition
 from recognizer.static import baseline, descriptors, person_postures
-from recognizer.static.candidates import Candidate, beside_person, candidates, check_size
+from recognizer.static.candidates import Candidate, beside_person, candidates, check_size, is_plain
 from recognizer.static.errors import HandTooSmallError, NoHandError
 from recognizer.static.methods import method_of
 from recognizer.static.person import Person, find_person
@@ -114,6 +115,9 @@ class PhotoRecognizer:
                 f"nothing in the photo is shaped like a hand (distance {best.decision.distance:.3g} from any known, "
                 f"limit {NO_HAND * self.model.threshold_:.3g}); show the whole hand before a plain background"
             )
+        if not best.candidate.fills() and not is_plain(image):
+            reason = f"something like {best.decision.nearest}, but small in a cluttered picture; come closer"
+            return dataclasses.replace(best.decision, label=None, rejected=True, reason=reason), ()
         return best.decision, _warnings(seen)
 
     def _decide_person(self, image: Image, person: Person, among: set[str] | None) -> Decision:
