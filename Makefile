@@ -3,7 +3,7 @@
 # make test      the test suite
 # make check     style, types, import contract
 # make assets    film the sample clips again
-# make database  film the data set (2,600 clips) and train the shipped database of dynamic gestures on it
+# make database  film the data set (7,600 clips, an hour) and train the shipped database of dynamic gestures on it
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
@@ -35,7 +35,7 @@ assets: $(DONE)
 	$(BIN)/nao-sim film --samples --out assets/clips
 
 database: $(DONE)
-	$(BIN)/nao-sim film --out build/set --persons 40 --takes 3 --irrelevant 800 --seed 2
+	$(BIN)/nao-sim film --out build/set --persons 60 --takes 4 --irrelevant 4000 --seed 3
 	$(BIN)/nao-sim train build/set --out assets/databases/dynamic.parquet
 
 clean:

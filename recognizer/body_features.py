@@ -15,24 +15,30 @@ import numpy as np
 from recognizer.active import PHASES, Active, active_part
 from recognizer.amplitude import MovingRegions
 from recognizer.finder import Body
+from recognizer.head_features import SWAY_SECONDS, head_features, running_mean
+from recognizer.head_motion import NAMES as HEAD_MOTIONS
 from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, ROWS, Step, cell_means, make_step
 
 METHOD = "body"
-VERSION = 1
+VERSION = 2
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
-SWAY_SECONDS = 0.7  # slower motion of the head is sway, a nod or shake is quicker
+HELD = 14.0  # the same between means of several pictures, which are less noisy
+HOLD_STEPS = 5  # half a second
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
 HEAD_X, HEAD_Y = HEAD.grid()
 Item = tuple[str, np.ndarray]
 
 
-def describe(steps: list[Step], regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> list[Item]:
+def describe(
+    steps: list[Step], head_motion: np.ndarray, regions: list[MovingRegions], body: Body, size: tuple[int, int]
+) -> list[Item]:
     """Return named groups of features of one clip.
 
     Args:
         steps: from :class:`recognizer.window.Windows`.
+        head_motion: from :class:`recognizer.head_motion.HeadMotion`, (n, 10).
         regions: moving regions in the whole image.
         body: place and size of the person [px of an image of ``size``].
         size: width and height of that image.
@@ -45,6 +51,7 @@ def describe(steps: list[Step], regions: list[MovingRegions], body: Body, size: 
         *_paths(active),
         *_circulation(active),
         *_head(active),
+        *head_features(head_motion),
         *_whole_image(regions, body, size),
         ("moved", np.array([math.log1p(active.moved), math.log1p(active.speed.max(axis=0).mean())])),
         ("active_seconds", np.array([math.log((active.last - active.first) * active.period + 0.2)])),
@@ -72,18 +79,32 @@ def _changes(active: Active) -> Iterator[Item]:
     ):
         changed = np.abs(active.pictures[i] - active.pictures[j]) > CHANGED
         yield f"changed_{name}", cell_means(changed.astype(np.float32))
+    yield "changed_hold", _hold(active)
 
 
-def _signal(values: np.ndarray, period: float) -> list[float]:
-    """Shares of four frequency bands, number of turns, amount and net direction of a velocity signal (n,)."""
-    spectrum = np.abs(np.fft.rfft(values * np.hanning(len(values) + 2)[1:-1], _FFT)) ** 2
+def _hold(active: Active) -> np.ndarray:
+    """Where the pose held longest from rest differs from it, in half head heights: an arm bent or stretched."""
+    rest = active.pictures[max(0, active.first - 2) : active.first + 1].mean(axis=0)
+    part = active.pictures[active.first : active.last]
+    away = np.abs(part - rest).mean(axis=(1, 2))
+    held = int(np.argmax(np.convolve(away, np.ones(HOLD_STEPS), "same")[: len(part)]))
+    half = HOLD_STEPS // 2
+    pose = part[max(0, held - half) : held + half + 1].mean(axis=0)
+    return cell_means((np.abs(pose - rest) > HELD).astype(np.float32), 2)
+
+
+def _signals(values: np.ndarray, period: float) -> np.ndarray:
+    """Shares of four frequency bands, number of turns, amount and net direction of velocity signals (n, k), (k, 7)."""
+    n, k = values.shape
+    spectrum = np.abs(np.fft.rfft(values * np.hanning(n + 2)[1:-1, None], _FFT, axis=0)) ** 2
     frequency = np.fft.rfftfreq(_FFT, period)
-    total = float(spectrum[1:].sum()) + 1e-4
-    shares = [float(spectrum[(frequency >= low) & (frequency < high)].sum()) / total for low, high in BANDS]
-    strong = values[np.abs(values) > 0.25 * np.abs(values).max() + 1e-6]
-    turns = int((np.diff(np.sign(strong)) != 0).sum()) if len(strong) > 1 else 0
-    amount = float(np.abs(values).sum())
-    return [*shares, math.sqrt(turns), math.log1p(0.1 * amount), float(values.sum()) / (amount + 0.1)]
+    total = spectrum[1:].sum(axis=0) + 1e-4
+    shares = [spectrum[(frequency >= low) & (frequency < high)].sum(axis=0) / total for low, high in BANDS]
+    sizes = np.abs(values)
+    amount = sizes.sum(axis=0)
+    strong = sizes > 0.25 * sizes.max(axis=0) + 1e-6
+    turns = [np.count_nonzero(np.diff(np.sign(values[strong[:, i], i]))) for i in range(k)]
+    return np.column_stack([*shares, np.sqrt(turns), np.log1p(0.1 * amount), values.sum(axis=0) / (amount + 0.1)])
 
 
 _REGIONS = {
@@ -92,15 +113,16 @@ _REGIONS = {
     "face": (np.abs(GRID_X) < 0.7) & (np.abs(GRID_Y) < 0.7),
     "all": np.ones_like(GRID_X, bool),
 }
+_REGION_MAPS = np.column_stack([region.ravel() for region in _REGIONS.values()]).astype(np.float32)
 
 
 def _rhythm(active: Active) -> Iterator[Item]:
     """How often motion turns round, and at what frequency, on each side, at the face, and overall."""
-    part = slice(active.first, active.last)
-    for name, region in _REGIONS.items():
-        for axis, flow in (("x", active.u), ("y", active.v)):
-            values = flow[part].reshape(active.last - active.first, -1) @ region.ravel().astype(np.float32)
-            yield f"rhythm_{name}_{axis}", np.array(_signal(values / 64, active.period))
+    part, n = slice(active.first, active.last), active.last - active.first
+    flows = [flow[part].reshape(n, -1) @ _REGION_MAPS for flow in (active.u, active.v)]
+    described = _signals(np.hstack(flows) / 64, active.period)
+    for i, values in enumerate(described):
+        yield f"rhythm_{list(_REGIONS)[i % len(_REGIONS)]}_{'xy'[i // len(_REGIONS)]}", values
 
 
 def _paths(active: Active) -> Iterator[Item]:
@@ -138,10 +160,10 @@ def _head(active: Active) -> Iterator[Item]:
     amount = (np.abs(flat) @ (face / face.sum()) * seconds[:, None]).sum(axis=0)
     # Who sways takes head and chest along; a nod is the head's own.
     own = mean - active.torso[active.first : active.last]
-    for axis in (0, 1):
-        yield f"head_rhythm_{'xy'[axis]}", np.array(_signal(4 * mean[:, axis], active.period))
-        yield f"head_rhythm_own_{'xy'[axis]}", np.array(_signal(4 * own[:, axis], active.period))
-    quick = own - _running_mean(own, max(1, round(SWAY_SECONDS / active.period)))
+    described = _signals(4 * np.column_stack([mean, own]), active.period)
+    for name, values in zip(("x", "y", "own_x", "own_y"), described, strict=True):
+        yield f"head_rhythm_{name}", values
+    quick = own - running_mean(own, round(SWAY_SECONDS / active.period))
     sizes = np.concatenate(
         [amount + 0.02, mean.std(axis=0) + 0.02, quick.std(axis=0) + 0.02, np.abs(quick).max(axis=0) + 0.05]
     )
@@ -150,16 +172,6 @@ def _head(active: Active) -> Iterator[Item]:
     cells = np.abs(part).reshape(len(part), 2, 3, 14, 3, 14).mean(axis=(3, 5))
     cells = np.einsum("t,tdyx->dyx", seconds, cells)
     yield "head_cells", np.sqrt(cells / (cells.sum() + 0.1))
-
-
-def _running_mean(values: np.ndarray, steps: int) -> np.ndarray:
-    """Mean over a window of about ``steps`` values around each, (n, 2)."""
-    window = np.ones(min(steps, len(values)) | 1)
-    covered = np.convolve(np.ones(len(values)), window, "same")
-    return (
-        np.column_stack([np.convolve(column, window, "same")[: len(values)] for column in values.T])
-        / covered[: len(values), None]
-    )
 
 
 def _whole_image(regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> Iterator[Item]:
@@ -192,7 +204,9 @@ def blank() -> list[Item]:
     zero = np.zeros((2, 64, 80), np.float32)
     head = np.zeros((2, *HEAD_X.shape), np.float32)
     steps = [make_step(0.1 * i, 0.1, zero[0], zero, head) for i in range(1, 8)]
-    return describe(steps, [], Body(40, 40, 10, 0), (320, 240))
+    head_motion = np.zeros((7, 2 + len(HEAD_MOTIONS)), np.float32)
+    head_motion[:, 1] = 0.1
+    return describe(steps, head_motion, [], Body(40, 40, 10, 0), (320, 240))
 
 
 def names() -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The default model: a learnt metric, the nearest neighbours of each class in it, and a limit from unseen persons."""
+"""The default model: a learnt metric, each class's nearest neighbours in it, weighed; limits from unseen persons."""
 
 from __future__ import annotations
 
@@ -8,12 +8,16 @@ from recognizer.database import IRRELEVANT, Database
 from recognizer.decision import SHOWN, Decision, neighbour
 from recognizer.metric import DiscriminantMetric
 from recognizer.mirror import with_mirrored
+from recognizer.weighing import Weights
 
-NEIGHBOURS = 3
-POWER = 2.0  # n of the votes 1/dⁿ that are reported
+NEIGHBOURS = 5
+WIDER = 3  # times as many neighbours tell how dense a class is around
+POWER = 2.0  # n of the votes 1/dⁿ where no weights could be learnt
 SHRINKAGE = 0.3
 FALSE_REJECTION = 0.03  # share of true gestures of unseen persons that the limit gives up
+NEVER_SEEN = 0.002  # share of them that is further from its gesture than anything answered
 FOLDS = 6
+BATCH = 500  # vectors whose distances are worked out at a time
 
 
 def metric_classes(database: Database) -> np.ndarray:
@@ -23,11 +27,12 @@ def metric_classes(database: Database) -> np.ndarray:
 
 
 class BodyModel:
-    """Neighbours in a discriminant metric.
+    """Weighed neighbours in a discriminant metric.
 
-    Every class is measured by the mean distance of its k nearest rows, so that a class with many clips has no
-    more say than one with few. A gesture is rejected when that distance is too large beside the distance of
-    irrelevant motion, which also grows where nothing was ever seen.
+    Every class is measured by the mean distance of its k and its 3k nearest rows, so that a class with many clips has
+    no more say than one with few; weights of these distances, learnt on persons whose rows were left out, give each
+    class its share. A gesture is rejected when irrelevant motion is too likely beside it, and when it is further
+    from its own rows than gestures of unseen persons are.
 
     Args:
         n_neighbors: k, rows of each class.
@@ -44,18 +49,20 @@ class BodyModel:
         return database
 
     def fit(self, database: Database) -> BodyModel:
-        """Learn metric and limit, or take them from the database where they are stored."""
-        self.rows = with_mirrored(database)
+        """Learn metric, weights and limits, or take them from the database where they are stored."""
         stored = database.arrays
         if "components" in stored:
+            self.rows = with_mirrored(database)
             self._measure(stored["mean"], stored["scale"], stored["components"].astype(np.float32))
-            self.limit_ = float(stored["limit"])
+            self.weights_ = Weights(stored["coefficients"], stored["offsets"])
+            self.limit_, self.farthest_ = float(stored["limit"]), float(stored["farthest"])
             return self
-        self._learn_metric()
-        self.limit_ = self._learn_limit(database)
+        self._learn_metric(database)
+        self._learn_weights(database)
         return self
 
-    def _learn_metric(self) -> None:
+    def _learn_metric(self, database: Database) -> None:
+        self.rows = with_mirrored(database)
         classes = metric_classes(self.rows)
         if len(np.unique(classes)) < 2:  # nothing to tell apart: every feature counts by its own spread
             deviation = self.rows.features.std(axis=0) + 1e-3
@@ -67,12 +74,18 @@ class BodyModel:
 
     def _measure(self, mean: np.ndarray, scale: np.ndarray, components: np.ndarray) -> None:
         self._mean, self._scale, self._components = mean, scale, components
+        # In single precision and one product: a database is projected in a tenth of a second.
+        self._map = (components / scale[:, None]).astype(np.float32)
+        self._origin = (mean @ (components / scale[:, None])).astype(np.float32)
         self._projected = self.project(self.rows.features)
+        self._squares = np.einsum("nc,nc->n", self._projected, self._projected)
         self._labels, self._targets = np.unique(self.rows.labels, return_inverse=True)
+        self._rows_of = [np.flatnonzero(self._targets == target) for target in range(len(self._labels))]
 
     def project(self, vectors: np.ndarray) -> np.ndarray:
-        """Bring feature vectors (n, d) into the metric, (n, c)."""
-        return ((vectors - self._mean) / self._scale) @ self._components
+        """Bring feature vectors (n, d) into the metric, (n, c) float32."""
+        projected: np.ndarray = vectors.astype(np.float32, copy=False) @ self._map - self._origin
+        return projected
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
@@ -81,33 +94,72 @@ class BodyModel:
             "mean": self._mean.astype(np.float32),
             "scale": self._scale.astype(np.float32),
             "components": self._components.astype(np.float16),
+            "coefficients": self.weights_.coefficients,
+            "offsets": self.weights_.offsets,
             "limit": np.array(self.limit_),
+            "farthest": np.array(self.farthest_),
         }
 
-    def _learn_limit(self, database: Database) -> float:
-        """Relative distance that all but 3 % of the gestures of unseen persons stay within, by folds over persons."""
+    def _learn_weights(self, database: Database) -> None:
+        """Weights and limits from persons whose rows are left out, by folds over persons."""
+        self.weights_, self.limit_, self.farthest_ = Weights.plain(len(self._labels), POWER), np.inf, np.inf
         persons = np.unique(database.persons)
-        if len(persons) < 2:
-            return float("inf")
-        found: list[float] = []
+        if len(persons) < 2 or len(self._labels) < 2:
+            return
+        distances, targets = [], []
         for fold in range(min(FOLDS, len(persons))):
             unseen = np.isin(database.persons, persons[fold::FOLDS])
             model = BodyModel(self.n_neighbors, self.shrinkage)
-            model.rows, model.limit_ = with_mirrored(database.take(~unseen)), float("inf")
-            model._learn_metric()
-            gestures = database.features[unseen & (database.labels != IRRELEVANT)]
-            if (model.rows.labels != IRRELEVANT).any():
-                found += [model.decide(vector).distance for vector in gestures]
-        return float(np.quantile(found, 1 - FALSE_REJECTION)) if found else float("inf")
+            model._learn_metric(database.take(~unseen))
+            shown = database.take(unseen)
+            distances.append(model._distances_to(self._labels, shown.features))
+            targets.append(np.searchsorted(self._labels, shown.labels))
+        found, true = np.concatenate(distances), np.concatenate(targets)
+        if len(np.unique(true)) == len(self._labels):
+            self.weights_ = Weights.fit(found, true)
+        self._set_limits(found, true)
+
+    def _set_limits(self, distances: np.ndarray, targets: np.ndarray) -> None:
+        if IRRELEVANT not in self._labels:
+            return
+        gestures = distances[self._labels[targets] != IRRELEVANT]
+        winners = [self._winner(row, self._labels != IRRELEVANT) for row in gestures]
+        self.limit_ = float(np.quantile([odds for _, odds, _ in winners], 1 - FALSE_REJECTION))
+        near = [row[winner] for row, (winner, _, _) in zip(gestures, winners, strict=True)]
+        self.farthest_ = float(np.quantile(near, 1 - NEVER_SEEN))
+
+    def _distances_to(self, labels: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+        """Distances of each vector (n, d) to each of ``labels``, (n, 2·n_labels); infinite to those not known."""
+        out = np.full((len(vectors), 2, len(labels)), np.inf)
+        places = np.searchsorted(labels, self._labels)
+        for first in range(0, len(vectors), BATCH):
+            batch = slice(first, first + BATCH)
+            out[batch, :, places] = self._class_distances(self._distances(vectors[batch]), self.n_neighbors)
+        return out.reshape(len(vectors), -1)
+
+    def _distances(self, vectors: np.ndarray) -> np.ndarray:
+        """Distance of feature vectors (n, d) to every row, (n, n_rows)."""
+        places = self.project(vectors)
+        squares = self._squares + np.einsum("nc,nc->n", places, places)[:, None] - 2 * (places @ self._projected.T)
+        distances: np.ndarray = np.sqrt(np.maximum(squares, 0))
+        return distances
 
     def _class_distances(self, distances: np.ndarray, k: int) -> np.ndarray:
-        """Mean distance of the k nearest rows of each label, (n_labels,)."""
-        out = np.empty(len(self._labels))
-        for target in range(len(self._labels)):
-            own = distances[self._targets == target]
-            near = min(k, len(own))
-            out[target] = np.partition(own, near - 1)[:near].mean()
+        """Mean distance of the k and the 3k nearest rows of each label: (n, n_rows) to (n, 2, n_labels)."""
+        out = np.empty((len(distances), 2, len(self._labels)))
+        for target, rows in enumerate(self._rows_of):
+            own = distances[:, rows]
+            wide = min(WIDER * k, own.shape[1])
+            nearest = np.sort(np.partition(own, wide - 1, axis=1)[:, :wide], axis=1)
+            out[:, :, target] = np.column_stack([nearest[:, :k].mean(axis=1), nearest.mean(axis=1)])
         return out
+
+    def _winner(self, distances: np.ndarray, allowed: np.ndarray) -> tuple[int, float, np.ndarray]:
+        """The most likely allowed label, the odds of irrelevant motion against it, and all shares."""
+        irrelevant = self._labels == IRRELEVANT
+        shares = self.weights_.shares(distances, allowed | irrelevant)
+        winner = int(np.argmax(np.where(allowed, shares, -1)))
+        return winner, float(shares[irrelevant].sum() / max(shares[winner], 1e-12)), shares
 
     def decide(self, vector: np.ndarray, among: set[str] | None = None, k: int | None = None) -> Decision:
         """Name a feature vector.
@@ -117,37 +169,39 @@ class BodyModel:
             among: labels that the context allows; irrelevant motion always competes.
             k: number of neighbours of each class, the model's own when None.
         """
-        distances = np.linalg.norm(self._projected - self.project(vector[None])[0], axis=1)
-        by_class = self._class_distances(distances, k or self.n_neighbors)
+        distances = self._distances(vector[None])
+        by_class = self._class_distances(distances, k or self.n_neighbors).ravel()
+        distances = distances[0]
         allowed = self._labels != IRRELEVANT
         if among is not None:
             allowed &= np.isin(self._labels, list(among))
-        winner = int(np.argmin(np.where(allowed, by_class, np.inf)))
-        name = str(self._labels[winner])
-        irrelevant = by_class[self._labels == IRRELEVANT]
+        winner, odds, shares = self._winner(by_class, allowed)
+        name, far = str(self._labels[winner]), float(by_class[winner])
         # Without irrelevant motion in the database the plain distance has to do.
-        distance = float(by_class[winner] / max(irrelevant[0], 1e-9)) if len(irrelevant) else float(by_class[winner])
-        order = np.argsort(
-            np.where(allowed[self._targets] | (self.rows.labels == IRRELEVANT), distances, np.inf), kind="stable"
-        )
-        reason = self._reason(name, distance, distances) if distance > self.limit_ else ""
-        weight = np.where(allowed | (self._labels == IRRELEVANT), 1 / np.maximum(by_class, 1e-9) ** POWER, 0.0)
-        votes = {str(n): float(w) for n, w in zip(self._labels, weight / weight.sum(), strict=True) if w > 0}
+        known = IRRELEVANT in self._labels
+        reason = self._reason(name, odds, far, distances) if odds > self.limit_ or far > self.farthest_ else ""
+        competing = allowed[self._targets] | (self.rows.labels == IRRELEVANT)
+        order = np.argsort(np.where(competing, distances, np.inf), kind="stable")
         return Decision(
             None if reason else name,
             name,
             str(self.rows.families[self._targets == winner][0]),
             bool(reason),
             reason,
-            distance,
-            self.limit_,
-            votes,
+            _share(odds) if known else far,
+            _share(self.limit_) if known else np.inf,
+            {str(n): float(share) for n, share in zip(self._labels, shares, strict=True) if share > 0},
             tuple(neighbour(self.rows, int(row), float(distances[row])) for row in order[:SHOWN]),
         )
 
-    def _reason(self, name: str, distance: float, distances: np.ndarray) -> str:
+    def _reason(self, name: str, odds: float, far: float, distances: np.ndarray) -> str:
+        if odds <= self.limit_:
+            return f"unlike anything known: nearest is {name} at distance {far:.3g}, beyond {self.farthest_:.3g}"
         irrelevant = np.flatnonzero(self.rows.labels == IRRELEVANT)
-        if len(irrelevant) == 0:
-            return f"nearest is {name} at distance {distance:.3g}, beyond {self.limit_:.3g}"
         action = self.rows.actions[irrelevant[np.argmin(distances[irrelevant])]]
-        return f"{name} is {distance:.2f} times as far as irrelevant motion ({action}); the limit is {self.limit_:.2f}"
+        return f"irrelevant motion ({action}) is {odds:.3g} times as likely as {name}; the limit is {self.limit_:.3g}"
+
+
+def _share(odds: float) -> float:
+    """Odds against a gesture as the share of what speaks against it, 0 … 1."""
+    return 1 - 1 / (1 + odds)

@@ -16,8 +16,7 @@ import pyarrow.parquet as pq
 from recognizer.errors import DatabaseError
 
 IRRELEVANT = "irrelevant"  # family and label of motions that must not be answered
-_LEVELS = 65535  # features are stored in 16 bits of their own range
-_CODE = np.dtype("<u2")
+_CODES: dict[int, np.dtype[Any]] = {8: np.dtype("u1"), 16: np.dtype("<u2")}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,6 +36,7 @@ class Database:
         mirror: label -> label of the same motion with left and right exchanged.
         provenance: how it was made (command, data set, seeds, scores), JSON-able.
         arrays: what was learned from the rows (projection, threshold …), by name.
+        bits: 8 or 16, in which each feature is stored, over its own range.
     """
 
     features: np.ndarray
@@ -51,6 +51,7 @@ class Database:
     mirror: dict[str, str] = dataclasses.field(default_factory=dict)
     provenance: dict[str, Any] = dataclasses.field(default_factory=dict)
     arrays: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
+    bits: int = 16
 
     def __post_init__(self) -> None:
         """Refuse what cannot be learned from."""
@@ -77,15 +78,23 @@ class Database:
         names = ("features", "labels", "families", "actions", "persons", "sources")
         return dataclasses.replace(self, **{name: getattr(self, name)[rows] for name in names}, arrays={})
 
+    def rounded(self) -> Database:
+        """Return the database as it will be read back, so that what is learned from it holds for what is stored."""
+        codes, low, step = self._codes()
+        return dataclasses.replace(self, features=_decoded(codes, low, step))
+
+    def _codes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        low, high = self.features.min(axis=0).astype(np.float64), self.features.max(axis=0)
+        step = np.maximum(high - low, 1e-12) / (2**self.bits - 1)
+        return np.round((self.features - low) / step).astype(_CODES[self.bits]), low, step
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the table atomically.
 
         Raises:
             DatabaseError: the place cannot be written.
         """
-        low, high = self.features.min(axis=0).astype(np.float64), self.features.max(axis=0)
-        step = np.maximum(high - low, 1e-12) / _LEVELS
-        codes = np.round((self.features - low) / step).astype(_CODE)
+        codes, low, step = self._codes()
         # One string of bytes a row: Parquet would widen small integers to 32 bits.
         vectors = pa.array([row.tobytes() for row in codes], pa.binary(codes.shape[1] * codes.itemsize))
         text = {name: pa.array(getattr(self, name).tolist(), pa.string()) for name in _TEXT}
@@ -121,13 +130,15 @@ class Database:
             table = pq.read_table(file)
             meta = table.schema.metadata or {}
             written = json.loads(meta[b"recognizer"])
+            written.setdefault("bits", 16)
             header: dict[str, Any] = {name: written[name] for name in _HEADER}
             with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
                 arrays = {name: packed[name] for name in packed.files}
             width = len(header["names"])
-            codes = np.frombuffer(b"".join(table["features"].to_pylist()), _CODE).reshape(len(table), width)
+            code = _CODES[header["bits"]]
+            codes = np.frombuffer(b"".join(table["features"].to_pylist()), code).reshape(len(table), width)
             text: dict[str, Any] = {name: np.array(table[name].to_pylist(), dtype=str) for name in _TEXT}
-            features = (codes * arrays.pop("step") + arrays.pop("low")).astype(np.float32)
+            features = _decoded(codes, arrays.pop("low"), arrays.pop("step"))
         except (pa.ArrowException, KeyError, ValueError, TypeError, OSError, EOFError) as error:
             raise DatabaseError(f"{file} is not a feature database ({type(error).__name__}); train it again") from None
         header["names"] = tuple(header["names"])
@@ -135,5 +146,11 @@ class Database:
         return cls(features=features, **text, **header, arrays=learned)
 
 
-_HEADER = ("method", "version", "names", "mirror", "provenance")
+def _decoded(codes: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarray:
+    features: np.ndarray = codes * step.astype(np.float32)
+    features += low.astype(np.float32)
+    return features
+
+
+_HEADER = ("method", "version", "names", "mirror", "provenance", "bits")
 _TEXT = ("labels", "families", "actions", "persons", "sources")

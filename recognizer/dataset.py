@@ -157,6 +157,7 @@ def build_database(
             version=extractor.version,
             mirror=mirror or {},
             provenance=provenance or {},
-        ),
+            bits=extractor.bits,
+        ).rounded(),
         problems,
     )

@@ -116,7 +116,7 @@ def evaluate(
             decision = model.decide(vector)
             nearest[row], routed[row] = decision.nearest, decision.family
             rejected[row] = decision.rejected
-            for k in KS:
+            for k in KS if database.labels[row] != IRRELEVANT else ():
                 right[k][row] = model.decide(vector, k=k).nearest == database.labels[row]
         if progress is not None:
             progress(number, len(splits))

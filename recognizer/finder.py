@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 from importlib.resources import files
 
 import cv2
@@ -26,6 +27,7 @@ FINE_HEAD = 9.0  # px: height of a head in the second, closer look
 FINE = 20  # cells of the closer look, 4.4 heads each way
 _FINE_RIM = 4  # cells around it, only for evening out the contrast
 _WEIGHTS = "head_shoulders.npz"
+_NEIGHBOURS = np.ones((3, 3), np.uint8)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -132,27 +134,26 @@ def score_maps(grey: np.ndarray, weights: np.ndarray, offset: float) -> list[tup
 
 def best_bodies(maps: list[tuple[float, np.ndarray]], size: tuple[int, int], count: int = 14) -> list[Body]:
     """Pick the highest, mutually distant scores; ``size`` is (width, height) of the image."""
-    found: list[Body] = []
+    found: list[tuple[float, float, float, float]] = []
     for head, scores in maps:
-        peaks = (scores >= cv2.dilate(scores, np.ones((3, 3), np.uint8))) & (scores > np.quantile(scores, 0.9))
+        peaks = (scores >= cv2.dilate(scores, _NEIGHBOURS)) & (scores > np.quantile(scores, 0.9))
         rows, columns = np.nonzero(peaks)
-        fx, fy = size[0] / scores.shape[1], size[1] / scores.shape[0]
-        found += [
-            Body((c + 0.5) * fx, (r + 0.5) * fy, head, float(scores[r, c])) for r, c in zip(rows, columns, strict=True)
-        ]
+        x = (columns + 0.5) * size[0] / scores.shape[1]
+        y = (rows + 0.5) * size[1] / scores.shape[0]
+        found += zip(scores[rows, columns].tolist(), x.tolist(), y.tolist(), [head] * len(x), strict=True)
     kept: list[Body] = []
-    for body in sorted(found, key=lambda b: -b.score):
+    for score, px, py, head in sorted(found, key=lambda place: -place[0]):
         if len(kept) == count:
             break
-        if not any(_overlap(body, other) for other in kept):
-            kept.append(body)
+        if not any(_overlap(px, py, head, other) for other in kept):
+            kept.append(Body(px, py, head, score))
     return kept
 
 
-def _overlap(a: Body, b: Body) -> bool:
+def _overlap(x: float, y: float, head: float, other: Body) -> bool:
     """Same place and similar size; a face inside a head is another candidate."""
-    near = np.hypot(a.x - b.x, a.y - b.y) < 0.7 * max(a.head, b.head)
-    return bool(near) and abs(np.log(a.head / b.head)) < 0.4
+    near = math.hypot(x - other.x, y - other.y) < 0.7 * max(head, other.head)
+    return near and abs(math.log(head / other.head)) < 0.4
 
 
 def closer_look(grey: np.ndarray, bodies: list[Body]) -> np.ndarray:

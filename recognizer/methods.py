@@ -17,7 +17,16 @@ from recognizer.track import Track
 
 @dataclasses.dataclass(frozen=True)
 class Method:
-    """A feature extractor with the model that reads its vectors."""
+    """A feature extractor with the model that reads its vectors.
+
+    Attributes:
+        name, version: what a database must agree with.
+        names: (d,) names of the features.
+        features: from a track to a vector (d,).
+        model: estimator that reads them.
+        needs_body: whether the track must find the person.
+        bits: in which a database stores each feature; many weak features need few.
+    """
 
     name: str
     version: int
@@ -25,19 +34,21 @@ class Method:
     features: Callable[[Track], np.ndarray]
     model: Any
     needs_body: bool
+    bits: int
 
 
 def _body(track: Track) -> np.ndarray:
     grey = track.samples[0].grey
     size = (grey.shape[1], grey.shape[0])
-    return body_features.vector(body_features.describe(list(track.steps), list(track.regions), track.body, size))
+    items = body_features.describe(list(track.steps), track.head_motion, list(track.regions), track.body, size)
+    return body_features.vector(items)
 
 
 METHODS = {
     method.name: method
     for method in (
-        Method(body_features.METHOD, body_features.VERSION, body_features.names(), _body, BodyModel, True),
-        Method(thesis.METHOD, thesis.VERSION, thesis.NAMES, thesis.features, thesis.ThesisModel, False),
+        Method(body_features.METHOD, body_features.VERSION, body_features.names(), _body, BodyModel, True, 8),
+        Method(thesis.METHOD, thesis.VERSION, thesis.NAMES, thesis.features, thesis.ThesisModel, False, 16),
     )
 }
 

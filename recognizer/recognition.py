@@ -84,8 +84,8 @@ class Recognition:
         family: "small", "large" or "static", of ``nearest``.
         rejected: no gesture of the vocabulary.
         reason: why rejected, with the distance; empty otherwise.
-        distance: to the nearest rows of that gesture; by the default method relative to irrelevant motion
-            (1 = as far as that).
+        distance: by the default method the share of irrelevant motion in what speaks for it or the gesture, 0 … 1;
+            otherwise to the nearest row of that gesture.
         threshold: distance beyond which a gesture is rejected.
         votes: label -> share of the votes.
         neighbours: nearest rows of the database, nearest first.

@@ -9,7 +9,9 @@ import cv2
 import numpy as np
 
 RATE = 10.0  # samples per second: the slowest camera we promise to understand
-KEPT_SECONDS = 15.0  # the ring's length; memory does not grow beyond it
+LOOK_RATE = 30.0  # frames per second looked at for quick small motion, where the camera gives as many
+LOOKS = round(LOOK_RATE / RATE)
+KEPT_SECONDS = 12.0  # the ring's length; memory does not grow beyond it
 IMAGE_SIDE = 480  # px, longer side of the pictures kept for key frames and evidence
 FLOW_SIDE = 96  # px, longer side of the grey image on which the flow is computed
 
@@ -24,6 +26,7 @@ class Sample:
         image: (h, w, 3) uint8 BGR, longer side at most 480 px.
         grey: (h, w) uint8, the same in grey.
         small: (h', w') float32 grey, longer side 96 px.
+        looks: time and grey picture of every frame since the sample before, this one last; at most 30 a second.
     """
 
     index: int
@@ -31,6 +34,7 @@ class Sample:
     image: np.ndarray
     grey: np.ndarray
     small: np.ndarray
+    looks: tuple[tuple[float, np.ndarray], ...]
 
 
 def scaled_size(width: int, height: int, side: int) -> tuple[int, int]:
@@ -47,17 +51,22 @@ class Sampler:
 
     def __init__(self, fps: float, first_index: int = 0, seconds: float = KEPT_SECONDS) -> None:
         self.fps = fps
-        self.samples: deque[Sample] = deque(maxlen=max(2, int(seconds * min(fps, RATE))))
+        self.kept = max(2, int(seconds * min(fps, RATE)))
+        self.samples: deque[Sample] = deque(maxlen=self.kept)
         self.pushed = 0
         self.first_index = first_index
         self._step = max(1.0, fps / RATE)
         self._taken = 0
+        self._look_step = max(1.0, fps / LOOK_RATE)
+        self._looks_taken = 0
+        self._looks: list[tuple[float, np.ndarray]] = []
 
     def push(self, frame: np.ndarray) -> Sample | None:
         """Take one BGR frame; return a sample when this frame is on the grid."""
         number = self.pushed
         self.pushed += 1
         if number < round(self._taken * self._step):
+            self._look(number, frame)
             return None
         self._taken += 1
         height, width = frame.shape[:2]
@@ -67,6 +76,19 @@ class Sampler:
             image = frame.copy()
         grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
         small = cv2.resize(grey, scaled_size(width, height, FLOW_SIDE), interpolation=cv2.INTER_AREA)
-        sample = Sample(self.first_index + number, number / self.fps, image, grey, small.astype(np.float32))
+        time = number / self.fps
+        looks, self._looks = (*self._looks, (time, grey)), []
+        self._looks_taken = max(self._looks_taken, int(number / self._look_step) + 1)
+        sample = Sample(self.first_index + number, time, image, grey, small.astype(np.float32), looks)
         self.samples.append(sample)
         return sample
+
+    def _look(self, number: int, frame: np.ndarray) -> None:
+        if number < round(self._looks_taken * self._look_step):
+            return
+        self._looks_taken += 1
+        grey = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY)
+        height, width = grey.shape
+        if max(height, width) > IMAGE_SIDE:
+            grey = cv2.resize(grey, scaled_size(width, height, IMAGE_SIDE), interpolation=cv2.INTER_AREA)
+        self._looks.append((number / self.fps, grey))

@@ -12,7 +12,8 @@ from recognizer.clip import Clip
 from recognizer.errors import ClipError
 from recognizer.finder import Body
 from recognizer.flow import horn_schunck
-from recognizer.samples import Sample, Sampler
+from recognizer.head_motion import HeadMotion
+from recognizer.samples import LOOKS, Sample, Sampler
 from recognizer.scene import Scene
 from recognizer.window import Step, Windows
 
@@ -40,12 +41,14 @@ class Track:
     def __init__(self, fps: float, first_index: int = 0, source: str = "stream", find_body: bool = True) -> None:
         self.source = source
         self.sampler = Sampler(fps, first_index)
-        kept = self.sampler.samples.maxlen
+        kept = self.sampler.kept
         self.regions: deque[MovingRegions] = deque(maxlen=kept)
         self.steps: deque[Step] = deque(maxlen=kept)
         self._waiting: deque[Sample] = deque(maxlen=kept)
         self._finder = BodyFinder() if find_body else None
         self._windows: Windows | None = None
+        self._head: HeadMotion | None = None
+        self._head_rows: deque[np.ndarray] = deque(maxlen=kept * LOOKS)
         self.scene = Scene()
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
@@ -60,6 +63,11 @@ class Track:
         """Place and size of the person [px of the samples' pictures]; decided now if it was not yet."""
         assert self._finder is not None
         return self._finder.decide()
+
+    @property
+    def head_motion(self) -> np.ndarray:
+        """(n, 10) how the head moved, at the camera's own rate; rows of :class:`HeadMotion`."""
+        return np.array(self._head_rows)
 
     def push(self, frame: np.ndarray) -> None:
         """Take one frame, (h, w, 3) uint8 BGR, all of one size.
@@ -93,10 +101,13 @@ class Track:
                 self._work_off(CATCH_UP)
 
     def _work_off(self, count: int) -> None:
-        if self._windows is None:
-            self._windows = Windows(self.body)
+        if self._windows is None or self._head is None:
+            self._windows, self._head = Windows(self.body), HeadMotion(self.body)
         for _ in range(min(count, len(self._waiting))):
-            step = self._windows.push(self._waiting.popleft())
+            sample = self._waiting.popleft()
+            rows = (self._head.push(time, grey) for time, grey in sample.looks)
+            self._head_rows.extend(row for row in rows if row is not None)
+            step = self._windows.push(sample)
             if step is not None:
                 self.steps.append(step)
 

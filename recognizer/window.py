@@ -108,10 +108,11 @@ def make_step(time: float, seconds: float, picture: np.ndarray, flow: np.ndarray
     return Step(time, seconds, picture, flow, speed, cell_means(ways), torso, head_flow)
 
 
-def cell_means(maps: np.ndarray) -> np.ndarray:
-    """Mean over each cell of maps (…, 64, 80): (…, 8, 10)."""
+def cell_means(maps: np.ndarray, per_head: int = 1) -> np.ndarray:
+    """Mean over each cell of maps (…, 64, 80): (…, 8, 10), or finer with several cells ``per_head`` height."""
     *lead, height, width = maps.shape
-    return maps.reshape(*lead, ROWS, height // ROWS, COLUMNS, width // COLUMNS).mean(axis=(-3, -1))
+    rows, columns = ROWS * per_head, COLUMNS * per_head
+    return maps.reshape(*lead, rows, height // rows, columns, width // columns).mean(axis=(-3, -1))
 
 
 def cut_window(grey: np.ndarray, body: Body, view: View) -> np.ndarray:

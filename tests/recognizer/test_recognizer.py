@@ -28,12 +28,7 @@ def frames_of(folder: Path, name: str) -> tuple[np.ndarray, float]:
     return np.array(list(clip)), clip.fps
 
 
-NOT_YET = pytest.mark.xfail(
-    reason="a nod of a small head is taken for a shake; figures in docs/recognizer.md", strict=True
-)
-
-
-@pytest.mark.parametrize("name", [pytest.param(n, marks=NOT_YET) if n == "yes" else n for n in SAMPLES])
+@pytest.mark.parametrize("name", SAMPLES)
 def test_sample_clips_are_named(recognizer: Recognizer, sample_clips: Path, name: str) -> None:
     answer = recognizer.recognize(sample_clips / f"{name}.avi")
     assert answer.label == name
@@ -119,7 +114,7 @@ def test_evidence_can_be_drawn(recognizer: Recognizer, sample_clips: Path, tmp_p
 def test_memory_does_not_grow(sample_clips: Path) -> None:
     frames, _ = frames_of(sample_clips, "yes")
     track = track_clip(Clip.from_array(np.concatenate([frames] * 8)[:300], 10.0))
-    assert len(track.samples) == len(track.steps) == len(track.regions) == 150
+    assert len(track.samples) == len(track.steps) == len(track.regions) == 120
 
 
 def test_answer_goes_to_plain_values(recognizer: Recognizer, sample_clips: Path) -> None:

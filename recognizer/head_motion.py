@@ -1,0 +1,111 @@
+"""How the head moves between two frames: six motions of an ellipsoid, fitted to the whole face at once.
+
+A nod and a shake hardly differ in where something moves; they differ in how the head turns. A turning ellipsoid moves
+its middle and leaves its rim (Basu, Essa and Pentland, ICPR 1996); swaying moves both. Fitting few motions to many
+pixels is steadier than any flow field, at any size of the head.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from recognizer.finder import Body
+from recognizer.window import View, cut_window, even_contrast
+
+NAMES = ("right", "down", "roll", "nearer", "turn", "nod", "chest_right", "chest_down")
+"""Columns of what is measured [head heights per second; roll in radians, nearer in shares per second]."""
+
+FACE = View(24, -0.75, 0.75, -0.75, 0.75)
+CHEST = View(12, -0.9, 0.9, 1.1, 2.9)
+AXES = (0.40, 0.52)  # half width and half height of the head [head heights]
+COARSE_STEPS, FINE_STEPS = 3, 2
+# Translation is free; what can only be told from it by the rim or by the eyes' slant needs more evidence.
+_STIFFNESS = np.array([0.004, 0.004, 0.010, 0.024, 0.006, 0.006])
+
+
+class MotionFit:
+    """Gauss-Newton fit of a few motion fields between two windows (Lucas and Kanade's, for all pixels together).
+
+    Args:
+        fields: (k, 2, h, w) displacement right and down of each pixel for one unit of each motion [px].
+        weight: (h, w) how much each pixel counts.
+        stiffness: (k,) pull of each motion towards its start, as a share of the evidence for translation.
+    """
+
+    def __init__(self, fields: np.ndarray, weight: np.ndarray, stiffness: np.ndarray) -> None:
+        self.fields = np.ascontiguousarray(fields, np.float32)
+        self.weight = weight.astype(np.float32).ravel()
+        self.stiffness = stiffness
+        self._flat = self.fields.reshape(len(fields), -1)
+        height, width = weight.shape
+        columns, rows = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
+        self._places = np.stack([columns, rows])
+
+    def __call__(self, first: np.ndarray, second: np.ndarray, start: np.ndarray, steps: int) -> np.ndarray:
+        """Return the amounts (k,) of each motion that take ``first`` to ``second``, (h, w) float32 both."""
+        gx = cv2.Sobel(first, cv2.CV_32F, 1, 0, ksize=3) / 8
+        gy = cv2.Sobel(first, cv2.CV_32F, 0, 1, ksize=3) / 8
+        change = (self.fields[:, 0] * gx + self.fields[:, 1] * gy).reshape(len(self.fields), -1)
+        weighted = change * self.weight
+        normal = (weighted @ change.T).astype(float)
+        normal[np.diag_indices_from(normal)] += self.stiffness * (normal[0, 0] + normal[1, 1]) / 2 + 1e-3
+        # Small and well conditioned thanks to the stiffness: one inverse serves all steps.
+        solver = (np.linalg.inv(normal) @ weighted).astype(np.float32)
+        amounts, still = start.astype(np.float32), first.ravel()
+        for _ in range(steps):
+            columns, rows = self._places + (amounts @ self._flat).reshape(self._places.shape)
+            moved = cv2.remap(second, columns, rows, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+            amounts = amounts - solver @ (moved.ravel() - still)
+        return amounts
+
+
+def _head_fields(pixels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Fields and weights of the head's six motions in the window FACE at ``pixels`` a head height."""
+    x, y = View(pixels, FACE.left, FACE.right, FACE.top, FACE.bottom).grid()
+    beyond = (x / AXES[0]) ** 2 + (y / AXES[1]) ** 2
+    bulge, one, none = np.sqrt(np.clip(1 - beyond, 0, 1)), np.ones_like(x), np.zeros_like(x)
+    fields = [(one, none), (none, one), (-y, x), (x, y), (bulge, none), (none, bulge)]
+    return np.array(fields) * pixels, np.clip(1.6 - beyond, 0, 1)
+
+
+def _chest_fields(pixels: int) -> tuple[np.ndarray, np.ndarray]:
+    x, y = View(pixels, CHEST.left, CHEST.right, CHEST.top, CHEST.bottom).grid()
+    one, none = np.ones_like(x), np.zeros_like(x)
+    return np.array([(one, none), (none, one)]) * pixels, np.exp(-(x * x + (y - 2) ** 2) / 0.36)
+
+
+_HEAD = [MotionFit(*_head_fields(pixels), _STIFFNESS) for pixels in (FACE.pixels // 2, FACE.pixels)]
+_TRUNK = [MotionFit(*_chest_fields(pixels), np.full(2, 0.02)) for pixels in (CHEST.pixels // 2, CHEST.pixels)]
+
+
+class HeadMotion:
+    """Follows a known head frame by frame, at the camera's own rate."""
+
+    def __init__(self, body: Body) -> None:
+        self.body = body
+        self._before: tuple[float, list[np.ndarray], list[np.ndarray]] | None = None
+
+    def push(self, time: float, grey: np.ndarray) -> np.ndarray | None:
+        """Take the next frame, (h, w) uint8; return time, seconds since the frame before, and the NAMES, (10,)."""
+        face, chest = (
+            _halves(even_contrast(cut_window(grey, self.body, view), view.pixels / 4 + 1)) for view in (FACE, CHEST)
+        )
+        before, self._before = self._before, (time, face, chest)
+        if before is None:
+            return None
+        seconds = time - before[0]
+        head, trunk = _coarse_to_fine(_HEAD, before[1], face), _coarse_to_fine(_TRUNK, before[2], chest)
+        return np.concatenate([[time, seconds], head / seconds, trunk / seconds]).astype(np.float32)
+
+
+def _halves(window: np.ndarray) -> list[np.ndarray]:
+    height, width = window.shape
+    return [cv2.resize(window, (width // 2, height // 2), interpolation=cv2.INTER_AREA), window]
+
+
+def _coarse_to_fine(fits: list[MotionFit], first: list[np.ndarray], second: list[np.ndarray]) -> np.ndarray:
+    amounts = np.zeros(len(fits[0].fields))
+    for fit, a, b, steps in zip(fits, first, second, (COARSE_STEPS, FINE_STEPS), strict=True):
+        amounts = fit(a, b, amounts, steps)
+    return amounts

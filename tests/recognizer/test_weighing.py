@@ -1,0 +1,61 @@
+"""Weights of the neighbours' distances: invariances, and what they are for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from recognizer.weighing import Weights
+
+DISTANCES = st.lists(st.floats(0.05, 50), min_size=6, max_size=6).map(np.array)
+
+
+@given(distances=DISTANCES, scale=st.floats(0.1, 10))
+@settings(deadline=None, max_examples=50)
+def test_only_ratios_of_distances_count(distances: np.ndarray, scale: float) -> None:
+    weights, allowed = Weights.plain(3, 2.0), np.ones(3, bool)
+    shares = weights.shares(distances, allowed)
+    assert shares.sum() == pytest.approx(1)
+    np.testing.assert_allclose(weights.shares(scale * distances, allowed), shares, rtol=1e-6)
+
+
+@given(distances=DISTANCES)
+@settings(deadline=None, max_examples=50)
+def test_plain_weights_are_votes_by_distance(distances: np.ndarray) -> None:
+    votes = distances[:3] ** -2.0
+    np.testing.assert_allclose(
+        Weights.plain(3, 2.0).shares(distances, np.ones(3, bool)), votes / votes.sum(), rtol=1e-6
+    )
+
+
+@given(distances=DISTANCES)
+@settings(deadline=None, max_examples=50)
+def test_what_the_context_forbids_has_no_share(distances: np.ndarray) -> None:
+    shares = Weights.plain(3, 2.0).shares(distances, np.array([True, False, True]))
+    assert shares[1] == 0
+    assert shares.sum() == pytest.approx(1)
+
+
+def test_a_class_without_rows_may_be_infinitely_far() -> None:
+    distances = np.array([1.0, 2.0, np.inf, 1.0, 2.0, np.inf])
+    shares = Weights.plain(3, 2.0).shares(distances, np.ones(3, bool))
+    assert shares[:2] == pytest.approx([0.8, 0.2], abs=1e-3)
+
+
+def test_a_sprawling_class_is_learnt_to_count_less() -> None:
+    """Class 0 lies near everything: also class 1's clips are a little nearer to it than to their own."""
+    rng = np.random.default_rng(0)
+    targets = rng.integers(0, 2, 400)
+    sprawling = np.where(targets == 0, 0.6, 0.9) * rng.uniform(0.95, 1.05, 400)
+    compact = np.where(targets == 0, 2.0, 1.0) * rng.uniform(0.95, 1.05, 400)
+    distances = np.column_stack([sprawling, compact, 1.1 * sprawling, 1.1 * compact])
+    plain, learnt = Weights.plain(2, 2.0), Weights.fit(distances, targets)
+
+    def right(weights: Weights) -> float:
+        named = [int(np.argmax(weights.shares(row, np.ones(2, bool)))) for row in distances]
+        return float(np.mean(np.array(named) == targets))
+
+    assert right(plain) < 0.6
+    assert right(learnt) > 0.99
