@@ -180,24 +180,24 @@ class BodyModel:
         # Without irrelevant motion in the database the plain distance has to do.
         known = IRRELEVANT in self._labels
         reason = self._reason(name, odds, far, distances) if odds > self.limit_ or far > self.farthest_ else ""
-        competing = allowed[self._targets] | (self.rows.labels == IRRELEVANT)
-        order = np.argsort(np.where(competing, distances, np.inf), kind="stable")
+        competing = np.where((allowed | (self._labels == IRRELEVANT))[self._targets], distances, np.inf)
+        near = np.argpartition(competing, min(SHOWN, len(competing)) - 1)[:SHOWN]
         return Decision(
             None if reason else name,
             name,
-            str(self.rows.families[self._targets == winner][0]),
+            str(self.rows.families[self._rows_of[winner][0]]),
             bool(reason),
             reason,
             _share(odds) if known else far,
             _share(self.limit_) if known else np.inf,
             {str(n): float(share) for n, share in zip(self._labels, shares, strict=True) if share > 0},
-            tuple(neighbour(self.rows, int(row), float(distances[row])) for row in order[:SHOWN]),
+            tuple(neighbour(self.rows, int(row), float(distances[row])) for row in near[np.argsort(competing[near])]),
         )
 
     def _reason(self, name: str, odds: float, far: float, distances: np.ndarray) -> str:
         if odds <= self.limit_:
             return f"unlike anything known: nearest is {name} at distance {far:.3g}, beyond {self.farthest_:.3g}"
-        irrelevant = np.flatnonzero(self.rows.labels == IRRELEVANT)
+        irrelevant = self._rows_of[int(np.searchsorted(self._labels, IRRELEVANT))]
         action = self.rows.actions[irrelevant[np.argmin(distances[irrelevant])]]
         return f"irrelevant motion ({action}) is {odds:.3g} times as likely as {name}; the limit is {self.limit_:.3g}"
 
