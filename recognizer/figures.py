@@ -69,10 +69,10 @@ def _scores(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
             places = np.arange(len(labels)) + (i - (len(evaluations) - 1) / 2) * width
             axis.bar(places, scores, width, color=COLOURS[e.method], label=f"{e.method}: mean {mean:.1%}")
         axis.set(
-            title=f"{FAMILIES[family]}: score per gesture, {evaluations[0].protocol}", ylim=(0, 1.02), ylabel="score"
+            title=f"{FAMILIES[family]}: score per gesture, {evaluations[0].protocol}", ylim=(0, 1.15), ylabel="score"
         )
         axis.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
-        axis.legend(loc="lower right")
+        axis.legend(loc="upper center", ncols=len(evaluations))
 
 
 def _against_k(axes: list[Axes], evaluations: Sequence[Evaluation]) -> None:
