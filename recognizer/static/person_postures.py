@@ -28,7 +28,7 @@ ASKED = (
     (0.0, 0.07, 1.0, 0.0),
     (0.0, -0.07, 1.0, 0.0),
 )
-LEAST_SHARE = 0.6  # of the winner, below which there is no answer: nine of ten answers are right then
+LEAST_SHARE = 0.6  # of the winner, below which there is no answer; chosen on odd-numbered persons
 NO_HAND = "no hand"
 
 
@@ -83,6 +83,11 @@ def decide(found: Shares, among: set[str] | None = None) -> Decision:
     label = None if rejected else winner
     family = IRRELEVANT if none else "static"
     return Decision(label, nearest, family, rejected, reason, distance, 1 - LEAST_SHARE, votes, ())
+
+
+def no_hand(decision: Decision) -> bool:
+    """Whether :func:`decide` found that nothing like a hand is there."""
+    return max(decision.votes, key=lambda label: decision.votes[label]) == NO_HAND
 
 
 def _label(name: str) -> str:

@@ -15,10 +15,10 @@ from recognizer.decision import Decision
 from recognizer.errors import DatabaseError
 from recognizer.recognition import Recognition
 from recognizer.static import baseline, descriptors, person_postures
-from recognizer.static.candidates import Candidate, beside_person, candidates, check_size, is_plain
-from recognizer.static.errors import HandTooSmallError, NoHandError
+from recognizer.static.candidates import Candidate, beside_person, candidates, check_size, close_up, is_plain
+from recognizer.static.errors import HandTooSmallError, NoHandError, NoSkinError
 from recognizer.static.methods import method_of
-from recognizer.static.person import Person, find_person
+from recognizer.static.person import CERTAIN, Person, find_person
 from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.types import Image
 
@@ -105,8 +105,12 @@ class PhotoRecognizer:
             person = find_person(image)
             if person is not None and set(self.labels) <= person_postures.known_labels():
                 several = (f"{person.persons} persons in view; the answer is for the clearest hand",)
-                return self._decide_person(image, person, among), several if person.persons > 1 else ()
-            seen = self.look(image, among)
+                decision = self._decide_person(image, person, among)
+                seen = self._without_person(image, person, decision, among)
+                if not seen:
+                    return decision, several if person.persons > 1 else ()
+            else:
+                seen = self.look(image, among)
         except HandTooSmallError as error:
             return self._not_seen(str(error)), ()
         best = seen[0]
@@ -130,6 +134,20 @@ class PhotoRecognizer:
             raise NoHandError("a person is in view, but no raised hand off the face; show the hand beside the head")
         among = set(self.labels) if among is None else among
         return person_postures.decide(person_postures.shares(image, person.spots[0]), among)
+
+    def _without_person(self, image: Image, person: Person, decision: Decision, among: set[str] | None) -> list[Seen]:
+        """What a close-up would show, where the person is in doubt and shows no hand: it may be none."""
+        if (
+            person.score >= CERTAIN
+            or not is_plain(image)
+            or not decision.rejected
+            or not person_postures.no_hand(decision)
+        ):
+            return []
+        try:
+            return self._seen(close_up(image), among)
+        except NoSkinError:
+            return []
 
     def _not_seen(self, reason: str) -> Decision:
         return Decision(None, IRRELEVANT, IRRELEVANT, True, reason, float("inf"), self.model.threshold_, {}, ())
