@@ -21,6 +21,7 @@ class Active:
         u, v, speed, ways, torso: as in :class:`Step`, (n, …).
         head: (n, 2, h, w) velocity in the window HEAD.
         pictures: (n, h, w) windows with even contrast.
+        poses: (n, h, w) uint8 windows POSE.
         seconds: (n,) duration of each step.
         first, last: steps first … last-1 are active.
         phases: (5, n) seconds that each step contributes to each phase.
@@ -34,6 +35,7 @@ class Active:
     head: np.ndarray
     torso: np.ndarray
     pictures: np.ndarray
+    poses: np.ndarray
     seconds: np.ndarray
     first: int
     last: int
@@ -65,6 +67,7 @@ def active_part(steps: list[Step]) -> Active:
         np.array([step.head_flow for step in steps]),
         np.array([step.torso for step in steps]),
         np.array([step.picture for step in steps]),
+        np.array([step.pose for step in steps]),
         seconds,
         first,
         last,

@@ -16,15 +16,14 @@ from recognizer.active import PHASES, Active, active_part
 from recognizer.amplitude import MovingRegions
 from recognizer.finder import Body
 from recognizer.head_features import SWAY_SECONDS, head_features, running_mean
+from recognizer.head_motion import LIGHT
 from recognizer.head_motion import NAMES as HEAD_MOTIONS
-from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, ROWS, Step, cell_means, make_step
+from recognizer.pose_features import pose_features
+from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, Step, make_step
 
 METHOD = "body"
-VERSION = 2
+VERSION = 3
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
-CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
-HELD = 14.0  # the same between means of several pictures, which are less noisy
-HOLD_STEPS = 5  # half a second
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
 HEAD_X, HEAD_Y = HEAD.grid()
@@ -38,7 +37,7 @@ def describe(
 
     Args:
         steps: from :class:`recognizer.window.Windows`.
-        head_motion: from :class:`recognizer.head_motion.HeadMotion`, (n, 10).
+        head_motion: from :class:`recognizer.head_motion.HeadMotion`, (n, 17).
         regions: moving regions in the whole image.
         body: place and size of the person [px of an image of ``size``].
         size: width and height of that image.
@@ -46,7 +45,7 @@ def describe(
     active = active_part(steps)
     return [
         *_flow_maps(active),
-        *_changes(active),
+        *pose_features(active),
         *_rhythm(active),
         *_paths(active),
         *_circulation(active),
@@ -64,33 +63,6 @@ def _flow_maps(active: Active) -> Iterator[Item]:
     coarse = fine.reshape(PHASES, 4, ROWS // 2, 2, COLUMNS // 2, 2).mean(axis=(3, 5))
     yield "flow_phase", np.sqrt(coarse / (fine.sum() + 0.5))
     yield "flow", np.sqrt(fine.sum(axis=0))
-
-
-def _changes(active: Active) -> Iterator[Item]:
-    """Share of each cell that changed between moments of the active part: the body's pose, held or not."""
-    a, b = active.first, active.last - 1
-    middle, early, late = (a + b) // 2, (3 * a + b) // 4, (a + 3 * b) // 4
-    for name, i, j in (
-        ("half", a, middle),
-        ("end", a, b),
-        ("second", middle, b),
-        ("early", a, early),
-        ("late", a, late),
-    ):
-        changed = np.abs(active.pictures[i] - active.pictures[j]) > CHANGED
-        yield f"changed_{name}", cell_means(changed.astype(np.float32))
-    yield "changed_hold", _hold(active)
-
-
-def _hold(active: Active) -> np.ndarray:
-    """Where the pose held longest from rest differs from it, in half head heights: an arm bent or stretched."""
-    rest = active.pictures[max(0, active.first - 2) : active.first + 1].mean(axis=0)
-    part = active.pictures[active.first : active.last]
-    away = np.abs(part - rest).mean(axis=(1, 2))
-    held = int(np.argmax(np.convolve(away, np.ones(HOLD_STEPS), "same")[: len(part)]))
-    half = HOLD_STEPS // 2
-    pose = part[max(0, held - half) : held + half + 1].mean(axis=0)
-    return cell_means((np.abs(pose - rest) > HELD).astype(np.float32), 2)
 
 
 def _signals(values: np.ndarray, period: float) -> np.ndarray:
@@ -203,8 +175,9 @@ def blank() -> list[Item]:
     """Features of a clip in which nothing moves: their names and number."""
     zero = np.zeros((2, 64, 80), np.float32)
     head = np.zeros((2, *HEAD_X.shape), np.float32)
-    steps = [make_step(0.1 * i, 0.1, zero[0], zero, head) for i in range(1, 8)]
-    head_motion = np.zeros((7, 2 + len(HEAD_MOTIONS)), np.float32)
+    pose = np.zeros(POSE.size[::-1], np.uint8)
+    steps = [make_step(0.1 * i, 0.1, zero[0], zero, head, pose) for i in range(1, 8)]
+    head_motion = np.zeros((7, 2 + len(HEAD_MOTIONS) + len(LIGHT)), np.float32)
     head_motion[:, 1] = 0.1
     return describe(steps, head_motion, [], Body(40, 40, 10, 0), (320, 240))
 

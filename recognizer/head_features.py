@@ -15,38 +15,54 @@ FASTEST = 8.0  # head heights per second; beyond it the fit has lost the head
 FREQUENCIES = (0.3, 0.9, 1.6, 2.5, 4.5)  # Hz, borders of four bands
 _FLOOR = 0.03  # head heights per second that noise amounts to
 _FFT = 256
-# Pairs of motions: what goes along with what.
-_TOGETHER = ((0, 1), (2, 4), (3, 5), (2, 8), (3, 8), (4, 9), (5, 10), (2, 3))
+_LIGHT_SIDEWAYS = np.array([0, 1, 0, 1, 0, 0], bool)  # moments that turn round when the clip is mirrored
+_LIGHT_FLOOR = 0.004  # of the window's contrast
 
 
 def head_features(motion: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Describe the head's motion over a clip.
 
     Args:
-        motion: (n, 10) rows of :class:`recognizer.head_motion.HeadMotion`; 2 rows at least.
+        motion: (n, 17) rows of :class:`recognizer.head_motion.HeadMotion`; 2 rows at least.
 
     Yields:
         Groups of features, none of which changes when the clip is mirrored.
     """
     period = float(np.median(motion[:, 1]))
-    right, down, roll, _, turn, nod, chest_right, chest_down = motion[:, 2:].T
+    right, down, roll, nearer, turn, nod, chest_right, chest_down = motion[:, 2:10].T
+    # A head that turns about its neck moves, too; a person who sways takes the chest along.
     own_right, own_down = right - chest_right, down - chest_down
-    signals = np.column_stack(
-        [turn + own_right, nod + own_down, turn, nod, right, down, own_right, own_down, roll, chest_right, chest_down]
-    ).clip(-FASTEST, FASTEST)
-    signals = running_mean(signals, round(SMOOTH_SECONDS / period))
-    quick = signals - running_mean(signals, round(SWAY_SECONDS / period))
-    power = running_mean(quick * quick, round(STRONGEST_SECONDS / period))
-    both = power[:, 0] + power[:, 1]
-    strongest = int(np.argmax(both))
-    half = max(2, round(STRONGEST_SECONDS / 2 / period))
-    peak, whole = np.sqrt(power[strongest]) + _FLOOR, quick.std(axis=0) + _FLOOR
-    yield "head_peak", np.log(peak)
-    yield "head_whole", np.log(whole)
-    yield "head_nod_or_shake", np.log([s[down] / s[down - 1] for s in (peak, whole) for down in (1, 3, 5, 7)])
-    yield "head_together", _together(quick[max(0, strongest - half) : strongest + half + 1])
-    yield "head_bursts", np.array([0.5 * math.log((both.max() + 1e-3) / (both.mean() + 1e-3))])
-    yield "head_beats", np.concatenate([_beats(quick[:, i], period) for i in (0, 1)])
+    sideways = [right, roll, turn, chest_right, own_right, turn + own_right]
+    upright = [down, nearer, nod, chest_down, own_down, nod + own_down]
+    quick = _quick(np.column_stack(sideways + upright).clip(-FASTEST, FASTEST), period)
+    power = running_mean(quick * quick, round(STRONGEST_SECONDS / period)).sum(axis=1)
+    strongest, half = int(np.argmax(power)), max(2, round(STRONGEST_SECONDS / 2 / period))
+    turned = np.arange(quick.shape[1]) < len(sideways)
+    yield "head_whole", _modes(quick, turned, _FLOOR)
+    yield "head_peak", _modes(quick[max(0, strongest - half) : strongest + half + 1], turned, _FLOOR)
+    light = _quick(motion[:, 10:16] / (float(np.median(motion[:, 16])) + 1.0), period)
+    yield "head_light", _modes(light, _LIGHT_SIDEWAYS, _LIGHT_FLOOR)
+    yield "head_bursts", np.array([0.5 * math.log((power.max() + 1e-3) / (power.mean() + 1e-3))])
+    yield "head_beats", np.concatenate([_beats(quick[:, i], period) for i in (5, 11)])
+
+
+def _quick(signals: np.ndarray, period: float) -> np.ndarray:
+    """Signals (n, k) without what is slower than a nod or quicker than a camera sees well."""
+    smooth = running_mean(signals, round(SMOOTH_SECONDS / period))
+    return smooth - running_mean(smooth, round(SWAY_SECONDS / period))
+
+
+def _modes(signals: np.ndarray, sideways: np.ndarray, floor: float) -> np.ndarray:
+    """Sizes (logarithms) and correlations of signals (n, k), of which those ``sideways`` (k,) turn when mirrored.
+
+    What goes along with what tells a nod from a shake of a head that is small or seen from the side, where no single
+    motion of the fit does. Correlations across the two kinds come without sign, so that mirroring changes nothing.
+    """
+    centred = signals - signals.mean(axis=0)
+    size = np.sqrt((centred * centred).mean(axis=0)) + floor
+    together = centred.T @ centred / len(centred) / np.outer(size, size)
+    together = np.where(sideways[:, None] == sideways[None], together, np.abs(together))
+    return np.concatenate([np.log(size), together[np.triu_indices(len(size), 1)]])
 
 
 def running_mean(values: np.ndarray, steps: int) -> np.ndarray:
@@ -55,14 +71,6 @@ def running_mean(values: np.ndarray, steps: int) -> np.ndarray:
     n = len(values)
     covered = np.convolve(np.ones(n), window, "same")[:n]
     return np.column_stack([np.convolve(column, window, "same")[:n] for column in values.T]) / covered[:, None]
-
-
-def _together(quick: np.ndarray) -> np.ndarray:
-    """Correlations of pairs of motions, without sign where mirroring would turn it."""
-    centred = quick - quick.mean(axis=0)
-    size = np.sqrt((centred * centred).mean(axis=0)) + 0.01
-    found = np.array([(centred[:, i] * centred[:, j]).mean() / (size[i] * size[j]) for i, j in _TOGETHER])
-    return np.append(np.abs(found), found[1:3])
 
 
 def _beats(signal: np.ndarray, period: float) -> np.ndarray:

@@ -14,14 +14,17 @@ from recognizer.finder import Body
 from recognizer.window import View, cut_window, even_contrast
 
 NAMES = ("right", "down", "roll", "nearer", "turn", "nod", "chest_right", "chest_down")
-"""Columns of what is measured [head heights per second; roll in radians, nearer in shares per second]."""
+"""Columns of the motions [head heights per second; roll in radians, nearer in shares per second]."""
+LIGHT = ("light", "light_right", "light_down", "light_askew", "light_wide", "light_tall", "contrast")
+"""Columns of where the face is light and where dark [grey levels]: moments of the picture, and its deviation."""
 
 FACE = View(24, -0.75, 0.75, -0.75, 0.75)
 CHEST = View(12, -0.9, 0.9, 1.1, 2.9)
+FINE_CONTRAST, CHEST_CONTRAST = 0.12, 1 / 3  # of the windows, evened out over so many head heights
 AXES = (0.40, 0.52)  # half width and half height of the head [head heights]
-COARSE_STEPS, FINE_STEPS = 3, 2
+STEPS = 2  # of the fit on each level
 # Translation is free; what can only be told from it by the rim or by the eyes' slant needs more evidence.
-_STIFFNESS = np.array([0.004, 0.004, 0.010, 0.024, 0.006, 0.006])
+_STIFFNESS = np.array([0.008, 0.008, 0.020, 0.048, 0.012, 0.012])
 
 
 class MotionFit:
@@ -49,9 +52,9 @@ class MotionFit:
         change = (self.fields[:, 0] * gx + self.fields[:, 1] * gy).reshape(len(self.fields), -1)
         weighted = change * self.weight
         normal = (weighted @ change.T).astype(float)
-        normal[np.diag_indices_from(normal)] += self.stiffness * (normal[0, 0] + normal[1, 1]) / 2 + 1e-3
+        normal.flat[:: len(normal) + 1] += self.stiffness * (normal[0, 0] + normal[1, 1]) / 2 + 1e-3
         # Small and well conditioned thanks to the stiffness: one inverse serves all steps.
-        solver = (np.linalg.inv(normal) @ weighted).astype(np.float32)
+        solver = cv2.invert(normal, flags=cv2.DECOMP_CHOLESKY)[1].astype(np.float32) @ weighted
         amounts, still = start.astype(np.float32), first.ravel()
         for _ in range(steps):
             columns, rows = self._places + (amounts @ self._flat).reshape(self._places.shape)
@@ -70,13 +73,24 @@ def _head_fields(pixels: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _chest_fields(pixels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Fields and weights of the chest's two motions in the window CHEST at ``pixels`` a head height."""
     x, y = View(pixels, CHEST.left, CHEST.right, CHEST.top, CHEST.bottom).grid()
     one, none = np.ones_like(x), np.zeros_like(x)
     return np.array([(one, none), (none, one)]) * pixels, np.exp(-(x * x + (y - 2) ** 2) / 0.36)
 
 
+def _moments() -> np.ndarray:
+    """Weights (6, h·w) of a face's mean and its moments about the head's centre, in units of the head's spread."""
+    x, y = (c / spread for c, spread in zip(FACE.grid(), (0.3, 0.4), strict=True))
+    weight = np.exp(-(x * x + y * y) / 2)
+    weight /= weight.sum()
+    one = np.ones_like(x)
+    return np.array([weight * m for m in (one, x, y, x * y, x * x - 1, y * y - 1)]).reshape(6, -1)
+
+
+_MOMENTS = _moments()
 _HEAD = [MotionFit(*_head_fields(pixels), _STIFFNESS) for pixels in (FACE.pixels // 2, FACE.pixels)]
-_TRUNK = [MotionFit(*_chest_fields(pixels), np.full(2, 0.02)) for pixels in (CHEST.pixels // 2, CHEST.pixels)]
+_TRUNK = [MotionFit(*_chest_fields(CHEST.pixels), np.full(2, 0.02))]  # one level: a chest moves little
 
 
 class HeadMotion:
@@ -87,16 +101,19 @@ class HeadMotion:
         self._before: tuple[float, list[np.ndarray], list[np.ndarray]] | None = None
 
     def push(self, time: float, grey: np.ndarray) -> np.ndarray | None:
-        """Take the next frame, (h, w) uint8; return time, seconds since the frame before, and the NAMES, (10,)."""
-        face, chest = (
-            _halves(even_contrast(cut_window(grey, self.body, view), view.pixels / 4 + 1)) for view in (FACE, CHEST)
-        )
+        """Take the next frame, (h, w) uint8; return time, seconds since the frame before, NAMES and LIGHT, (17,)."""
+        window, trunk = cut_window(grey, self.body, FACE), cut_window(grey, self.body, CHEST)
+        face = _halves(even_contrast(window, FINE_CONTRAST * FACE.pixels))
+        chest = [even_contrast(trunk, CHEST_CONTRAST * CHEST.pixels)]
         before, self._before = self._before, (time, face, chest)
         if before is None:
             return None
         seconds = time - before[0]
-        head, trunk = _coarse_to_fine(_HEAD, before[1], face), _coarse_to_fine(_TRUNK, before[2], chest)
-        return np.concatenate([[time, seconds], head / seconds, trunk / seconds]).astype(np.float32)
+        head, torso = _coarse_to_fine(_HEAD, before[1], face), _coarse_to_fine(_TRUNK, before[2], chest)
+        light = _MOMENTS @ window.ravel()
+        return np.concatenate([[time, seconds], head / seconds, torso / seconds, light, [window.std()]]).astype(
+            np.float32
+        )
 
 
 def _halves(window: np.ndarray) -> list[np.ndarray]:
@@ -106,6 +123,6 @@ def _halves(window: np.ndarray) -> list[np.ndarray]:
 
 def _coarse_to_fine(fits: list[MotionFit], first: list[np.ndarray], second: list[np.ndarray]) -> np.ndarray:
     amounts = np.zeros(len(fits[0].fields))
-    for fit, a, b, steps in zip(fits, first, second, (COARSE_STEPS, FINE_STEPS), strict=True):
-        amounts = fit(a, b, amounts, steps)
+    for fit, a, b in zip(fits, first, second, strict=True):
+        amounts = fit(a, b, amounts, STEPS)
     return amounts

@@ -84,6 +84,8 @@ def _within(name: str, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
         order = order[[1, 0, 2, 3], :, ::-1]
     elif name.startswith("changed_") or name == "head_cells":
         order = order[..., ::-1]
+    elif name.startswith("edges_"):  # direction, row, column; a slanting edge slants the other way
+        order = order[[0, 3, 2, 1], :, ::-1]
     elif name.startswith(("rhythm_", "head_rhythm_")) and name.endswith("_x"):
         sign[-1] = -1  # net direction
     elif name.startswith("circulation_"):

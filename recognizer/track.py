@@ -66,7 +66,7 @@ class Track:
 
     @property
     def head_motion(self) -> np.ndarray:
-        """(n, 10) how the head moved, at the camera's own rate; rows of :class:`HeadMotion`."""
+        """(n, 17) how the head moved, at the camera's own rate; rows of :class:`HeadMotion`."""
         return np.array(self._head_rows)
 
     def push(self, frame: np.ndarray) -> None:

@@ -45,6 +45,7 @@ class View:
 
 WHOLE = View(8, -5.0, 5.0, -3.25, 4.75)  # arms at full reach
 HEAD = View(24, -0.875, 0.875, -0.875, 0.875)  # fine enough to see a nod
+POSE = View(16, -3.5, 3.5, -2.5, 3.0)  # fine enough to see which way a forearm points
 STILL = 0.35  # head heights per second: slower is sway or noise
 ROWS, COLUMNS = 8, 10  # cells of one head height over the window WHOLE
 GRID_X, GRID_Y = WHOLE.grid()
@@ -66,6 +67,7 @@ class Step:
         ways: (4, 8, 10) motion right, left, down and up, mean over cells of one head height.
         torso: (2,) mean velocity of chest and belly, slow motion included.
         head_flow: (2, 42, 42) velocity in the window HEAD, slow motion included.
+        pose: (88, 112) uint8, the window POSE as the camera saw it.
     """
 
     time: float
@@ -76,6 +78,7 @@ class Step:
     ways: np.ndarray
     torso: np.ndarray
     head_flow: np.ndarray
+    pose: np.ndarray
 
 
 class Windows:
@@ -95,17 +98,20 @@ class Windows:
         seconds = sample.time - before[0]
         flow = np.stack(coarse_to_fine(before[1], whole)) / np.float32(WHOLE.pixels * seconds)
         head_flow = np.stack(coarse_to_fine(before[2], head)) / np.float32(HEAD.pixels * seconds)
-        return make_step(sample.time, seconds, whole, flow, head_flow)
+        pose = cut_window(sample.grey, self.body, POSE).astype(np.uint8)
+        return make_step(sample.time, seconds, whole, flow, head_flow, pose)
 
 
-def make_step(time: float, seconds: float, picture: np.ndarray, flow: np.ndarray, head_flow: np.ndarray) -> Step:
+def make_step(
+    time: float, seconds: float, picture: np.ndarray, flow: np.ndarray, head_flow: np.ndarray, pose: np.ndarray
+) -> Step:
     """Work out the rest of a step from its flow, as it is measured."""
     speed = np.sqrt(flow[0] * flow[0] + flow[1] * flow[1])
     torso = flow.reshape(2, -1) @ _TORSO
     moving = (speed > STILL).astype(np.float32)
     flow, speed = flow * moving, speed * moving
     ways = np.stack([np.maximum(f, 0) for f in (flow[0], -flow[0], flow[1], -flow[1])])
-    return Step(time, seconds, picture, flow, speed, cell_means(ways), torso, head_flow)
+    return Step(time, seconds, picture, flow, speed, cell_means(ways), torso, head_flow, pose)
 
 
 def cell_means(maps: np.ndarray, per_head: int = 1) -> np.ndarray:
@@ -118,16 +124,25 @@ def cell_means(maps: np.ndarray, per_head: int = 1) -> np.ndarray:
 def cut_window(grey: np.ndarray, body: Body, view: View) -> np.ndarray:
     """Cut a window around the head out of a grey image, float32; beyond the border its edge is repeated."""
     scale = body.head / view.pixels
-    height, width = grey.shape
-    fx = fy = 1.0
-    if scale > 1.5:  # shrink by area first, so that nothing is skipped
-        size = (max(1, round(width / scale)), max(1, round(height / scale)))
-        grey = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
-        fx, fy = size[0] / width, size[1] / height
-    x, y = (body.x + view.left * body.head) * fx, (body.y + view.top * body.head) * fy
-    matrix = np.array([[scale * fx, 0, x], [0, scale * fy, y]], np.float32)
+    width, height = view.size
+    x, y = body.x + view.left * body.head, body.y + view.top * body.head
+    if scale > 1.5:  # shrink by area first, so that nothing is skipped; only what the window shows
+        left, right = _seen(x, width * scale, 2 * scale, grey.shape[1])
+        top, bottom = _seen(y, height * scale, 2 * scale, grey.shape[0])
+        size = (max(1, round((right - left) / scale)), max(1, round((bottom - top) / scale)))
+        fx, fy = size[0] / (right - left), size[1] / (bottom - top)
+        grey = cv2.resize(grey[top:bottom, left:right], size, interpolation=cv2.INTER_AREA)
+        matrix = np.array([[scale * fx, 0, (x - left) * fx], [0, scale * fy, (y - top) * fy]], np.float32)
+    else:
+        matrix = np.array([[scale, 0, x], [0, scale, y]], np.float32)
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     return cv2.warpAffine(grey, matrix, view.size, flags=flags, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
+
+
+def _seen(start: float, length: float, margin: float, size: int) -> tuple[int, int]:
+    """First and last pixel (exclusive) of an image of ``size`` that a window needs, one at least."""
+    first = min(max(0, int(np.floor(start - margin))), size - 1)
+    return first, max(first + 1, min(size, int(np.ceil(start + length + margin))))
 
 
 def even_contrast(window: np.ndarray, sigma: float) -> np.ndarray:

@@ -8,7 +8,7 @@ import pytest
 
 from recognizer.finder import Body
 from recognizer.head_features import head_features
-from recognizer.head_motion import AXES, NAMES, HeadMotion
+from recognizer.head_motion import AXES, LIGHT, NAMES, HeadMotion
 
 BODY = Body(160.0, 100.0, 48.0, 1.0)
 SECONDS = 1 / 30
@@ -48,7 +48,7 @@ def measured(first: np.ndarray, second: np.ndarray, body: Body = BODY) -> dict[s
     row = head.push(SECONDS, second)
     assert row is not None
     assert row[:2] == pytest.approx([SECONDS, SECONDS], rel=1e-6)
-    return dict(zip(NAMES, (row[2:] * SECONDS).tolist(), strict=True))
+    return dict(zip(NAMES, (row[2:10] * SECONDS).tolist(), strict=True))
 
 
 @pytest.mark.parametrize(("right", "down"), [(3.0, 0.0), (0.0, -2.5), (-1.5, 1.5)])
@@ -79,10 +79,15 @@ def test_half_the_picture_gives_the_same(texture: np.ndarray) -> None:
         assert half[name] == pytest.approx(whole[name], abs=0.02)
 
 
+COLUMNS = (*NAMES, *LIGHT)
+TURNING, NODDING = 5, 11  # among the sizes of head_whole and head_peak
+
+
 def clip(nod: float, turn: float, sway: float, seconds: float = 3.0, fps: float = 25.0) -> np.ndarray:
     """Rows as of HeadMotion: two oscillations a second of so many head heights a second, over a slow sway."""
     time = np.arange(1, round(seconds * fps)) / fps
-    rows = np.zeros((len(time), 2 + len(NAMES)))
+    rows = np.zeros((len(time), 2 + len(NAMES) + len(LIGHT)))
+    rows[:, -1] = 40.0  # contrast
     rows[:, 0], rows[:, 1] = time, 1 / fps
     beat, slow = np.sin(4 * np.pi * time), np.sin(0.6 * np.pi * time)
     for name, amount in (
@@ -90,26 +95,34 @@ def clip(nod: float, turn: float, sway: float, seconds: float = 3.0, fps: float 
         ("turn", turn * beat),
         ("right", sway * slow),
         ("chest_right", sway * slow),
+        ("light_down", 8 * nod * np.cos(4 * np.pi * time)),
+        ("light_right", 8 * turn * np.cos(4 * np.pi * time)),
     ):
-        rows[:, 2 + NAMES.index(name)] = amount
+        rows[:, 2 + COLUMNS.index(name)] = amount
     return rows
 
 
 def test_nod_and_shake_are_told_apart_over_a_strong_sway() -> None:
     nodded, shaken = (dict(head_features(clip(nod, turn, 0.8))) for nod, turn in ((0.6, 0.0), (0.0, 0.6)))
-    assert nodded["head_nod_or_shake"][0] > 1 > -1 > shaken["head_nod_or_shake"][0]
+    for group in ("head_peak", "head_whole"):
+        assert nodded[group][NODDING] - nodded[group][TURNING] > 1
+        assert shaken[group][TURNING] - shaken[group][NODDING] > 1
+    assert nodded["head_light"][2] - nodded["head_light"][1] > 1  # what is dark moves down and up, too
 
 
 def test_mirroring_changes_none_of_the_head_features() -> None:
     rows = clip(0.3, 0.5, 0.4)
     turned = rows.copy()
-    for name in ("right", "roll", "turn", "chest_right"):
-        turned[:, 2 + NAMES.index(name)] *= -1
+    for name in ("right", "roll", "turn", "chest_right", "light_right", "light_askew"):
+        turned[:, 2 + COLUMNS.index(name)] *= -1
     for (name, values), (_, other) in zip(head_features(rows), head_features(turned), strict=True):
         np.testing.assert_allclose(values, other, atol=1e-9, err_msg=name)
 
 
 def test_camera_at_half_the_rate_gives_nearly_the_same_features() -> None:
     quick, slow = (dict(head_features(clip(0.5, 0.1, 0.3, fps=fps))) for fps in (30.0, 15.0))
-    np.testing.assert_allclose(quick["head_nod_or_shake"], slow["head_nod_or_shake"], atol=0.35)
-    np.testing.assert_allclose(quick["head_peak"], slow["head_peak"], atol=0.2)
+    apart_quick, apart_slow = (f["head_peak"][NODDING] - f["head_peak"][TURNING] for f in (quick, slow))
+    assert apart_quick == pytest.approx(apart_slow, abs=0.35)
+    sizes_quick, sizes_slow = (np.exp(f["head_peak"][:12]) for f in (quick, slow))
+    np.testing.assert_allclose(sizes_quick, sizes_slow, atol=0.02)  # head heights per second
+    np.testing.assert_allclose(quick["head_light"], slow["head_light"], atol=0.2)

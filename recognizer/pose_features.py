@@ -1,0 +1,90 @@
+"""What the person's pose is while moving: where he differs from rest, and which way the edges there run.
+
+Flow says how something moves; a hand that rests at an ear and one that is held up differ in where it came to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import cv2
+import numpy as np
+
+from recognizer.active import Active
+from recognizer.window import POSE, cell_means, even_contrast
+
+CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
+HELD = 14.0  # the same between means of several pictures, which are less noisy
+HOLD_STEPS = 5  # half a second
+DIRECTIONS = 4  # of edges, without sign
+MOMENTS = (("quarter", 0.25), ("middle", 0.5), ("late", 0.75))  # of the active part
+Item = tuple[str, np.ndarray]
+
+
+def pose_features(active: Active) -> Iterator[Item]:
+    """Describe poses of the active part against each other and against the rest before it."""
+    yield from _changes(active)
+    rest = slice(max(0, active.first - 2), active.first + 1)
+    held = _held_longest(active, active.pictures[rest].mean(axis=0))
+    standing = active.pictures[rest].mean(axis=0)
+    yield "changed_hold", cell_means((np.abs(active.pictures[held].mean(axis=0) - standing) > HELD).astype(float), 2)
+    before = active.poses[rest].mean(axis=0, dtype=np.float32)
+    yield "edges_hold", new_edges(before, active.poses[held].mean(axis=0, dtype=np.float32))
+    for name, share in MOMENTS:
+        at = active.first + round(share * (active.last - active.first))
+        now = active.poses[max(0, at - 1) : at + 2].mean(axis=0, dtype=np.float32)
+        yield f"edges_{name}", _coarser(new_edges(before, now))
+
+
+def _changes(active: Active) -> Iterator[Item]:
+    """Share of each cell that changed between moments of the active part: the body's pose, held or not."""
+    a, b = active.first, active.last - 1
+    middle, early, late = (a + b) // 2, (3 * a + b) // 4, (a + 3 * b) // 4
+    for name, i, j in (
+        ("half", a, middle),
+        ("end", a, b),
+        ("second", middle, b),
+        ("early", a, early),
+        ("late", a, late),
+    ):
+        changed = np.abs(active.pictures[i] - active.pictures[j]) > CHANGED
+        yield f"changed_{name}", cell_means(changed.astype(np.float32))
+
+
+def _held_longest(active: Active, standing: np.ndarray) -> slice:
+    """Steps around the moment that is, for half a second, furthest from the pose at rest."""
+    away = np.abs(active.pictures[active.first : active.last] - standing).mean(axis=(1, 2))
+    middle = active.first + int(np.argmax(np.convolve(away, np.ones(HOLD_STEPS), "same")[: len(away)]))
+    half = HOLD_STEPS // 2
+    return slice(max(active.first, middle - half), min(active.last, middle + half + 1))
+
+
+def new_edges(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Edges of the picture ``after`` where it differs from ``before``.
+
+    Args:
+        before, after: (88, 112) float32, windows POSE as the camera saw them.
+
+    Returns:
+        (4, 11, 14) mean strength of edges whose gradient points right, down-right, down and down-left (or the
+        opposite way), in cells of half a head height.
+    """
+    a, b = (even_contrast(picture, POSE.pixels / 2) for picture in (before, after))
+    changed = np.minimum(cv2.GaussianBlur(np.abs(a - b), (0, 0), POSE.pixels / 8) / (2 * HELD), 1.0)
+    gx, gy = cv2.Sobel(b, cv2.CV_32F, 1, 0, ksize=3) / 8, cv2.Sobel(b, cv2.CV_32F, 0, 1, ksize=3) / 8
+    strength = np.sqrt(gx * gx + gy * gy) * changed / 10
+    angle = cv2.phase(gx, gy) * (DIRECTIONS / np.pi) % DIRECTIONS
+    apart = np.abs(angle - np.arange(DIRECTIONS, dtype=np.float32)[:, None, None])
+    planes = np.maximum(1 - np.minimum(apart, DIRECTIONS - apart), 0) * strength
+    height, width = before.shape
+    side = POSE.pixels // 2
+    cells: np.ndarray = planes.reshape(DIRECTIONS, height // side, side, width // side, side).mean(axis=(2, 4))
+    return cells
+
+
+def _coarser(cells: np.ndarray) -> np.ndarray:
+    """Cells of one head height, without the top row of half a head: (4, 11, 14) to (4, 5, 7)."""
+    below = cells[:, 1:]
+    directions, rows, columns = below.shape
+    coarse: np.ndarray = below.reshape(directions, rows // 2, 2, columns // 2, 2).mean(axis=(2, 4))
+    return coarse
