@@ -19,6 +19,7 @@ from recognizer.head_features import SWAY_SECONDS, head_features, running_mean
 from recognizer.head_motion import LIGHT
 from recognizer.head_motion import NAMES as HEAD_MOTIONS
 from recognizer.pose_features import pose_features
+from recognizer.unrest import unrest_features
 from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, Step, make_step
 
 METHOD = "body"
@@ -46,6 +47,7 @@ def describe(
     return [
         *_flow_maps(active),
         *pose_features(active),
+        *unrest_features(active),
         *_rhythm(active),
         *_paths(active),
         *_circulation(active),

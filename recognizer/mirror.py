@@ -64,7 +64,7 @@ def with_mirrored(database: Database) -> Database:
 
 def _twin(name: str) -> str:
     """The group that describes the other side."""
-    for prefix in ("path_", "circulation_"):
+    for prefix in ("path_", "circulation_", "flicker_"):
         if name.startswith(prefix):
             side = name.removeprefix(prefix)
             return prefix + _OPPOSITE.get(side, side)
@@ -82,7 +82,7 @@ def _within(name: str, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
         order = order[:, [1, 0, 2, 3], :, ::-1]
     elif name == "flow":
         order = order[[1, 0, 2, 3], :, ::-1]
-    elif name.startswith("changed_") or name == "head_cells":
+    elif name.startswith("changed_") or name in ("head_cells", "unrest"):
         order = order[..., ::-1]
     elif name.startswith("edges_"):  # direction, row, column; a slanting edge slants the other way
         order = order[[0, 3, 2, 1], :, ::-1]

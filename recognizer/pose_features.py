@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from recognizer.active import Active
-from recognizer.window import POSE, cell_means, even_contrast
+from recognizer.window import POSE, cell_means
 
 CHANGED = 18.0  # even-contrast levels between two pictures that count as changed
 HELD = 14.0  # the same between means of several pictures, which are less noisy
@@ -28,12 +28,12 @@ def pose_features(active: Active) -> Iterator[Item]:
     held = _held_longest(active, active.pictures[rest].mean(axis=0))
     standing = active.pictures[rest].mean(axis=0)
     yield "changed_hold", cell_means((np.abs(active.pictures[held].mean(axis=0) - standing) > HELD).astype(float), 2)
-    before = active.poses[rest].mean(axis=0, dtype=np.float32)
-    yield "edges_hold", new_edges(before, active.poses[held].mean(axis=0, dtype=np.float32))
+    before = levelled(active.poses[rest].mean(axis=0, dtype=np.float32))
+    yield "edges_hold", new_edges(before, levelled(active.poses[held].mean(axis=0, dtype=np.float32)))
     for name, share in MOMENTS:
         at = active.first + round(share * (active.last - active.first))
         now = active.poses[max(0, at - 1) : at + 2].mean(axis=0, dtype=np.float32)
-        yield f"edges_{name}", _coarser(new_edges(before, now))
+        yield f"edges_{name}", _coarser(new_edges(before, levelled(now)))
 
 
 def _changes(active: Active) -> Iterator[Item]:
@@ -59,27 +59,38 @@ def _held_longest(active: Active, standing: np.ndarray) -> slice:
     return slice(max(active.first, middle - half), min(active.last, middle + half + 1))
 
 
+def levelled(picture: np.ndarray) -> np.ndarray:
+    """Even out the contrast of a window POSE, (88, 112) float32, over a head height."""
+    side = POSE.pixels + 1
+    detail = picture - cv2.blur(picture, (side, side))
+    return detail * (25.0 / (np.sqrt(cv2.blur(detail * detail, (side, side))) + 6.0))
+
+
 def new_edges(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """Edges of the picture ``after`` where it differs from ``before``.
 
     Args:
-        before, after: (88, 112) float32, windows POSE as the camera saw them.
+        before, after: (88, 112) float32, windows POSE, levelled.
 
     Returns:
         (4, 11, 14) mean strength of edges whose gradient points right, down-right, down and down-left (or the
         opposite way), in cells of half a head height.
     """
-    a, b = (even_contrast(picture, POSE.pixels / 2) for picture in (before, after))
-    changed = np.minimum(cv2.GaussianBlur(np.abs(a - b), (0, 0), POSE.pixels / 8) / (2 * HELD), 1.0)
-    gx, gy = cv2.Sobel(b, cv2.CV_32F, 1, 0, ksize=3) / 8, cv2.Sobel(b, cv2.CV_32F, 0, 1, ksize=3) / 8
-    strength = np.sqrt(gx * gx + gy * gy) * changed / 10
-    angle = cv2.phase(gx, gy) * (DIRECTIONS / np.pi) % DIRECTIONS
-    apart = np.abs(angle - np.arange(DIRECTIONS, dtype=np.float32)[:, None, None])
-    planes = np.maximum(1 - np.minimum(apart, DIRECTIONS - apart), 0) * strength
+    change = cv2.GaussianBlur(np.abs(before - after), (0, 0), POSE.pixels / 8)
+    gx, gy = cv2.Sobel(after, cv2.CV_32F, 1, 0, ksize=3), cv2.Sobel(after, cv2.CV_32F, 0, 1, ksize=3)
+    strength, angle = cv2.cartToPolar(gx, gy)
+    strength *= np.minimum(change / (2 * HELD), 1.0) / 80
+    angle *= DIRECTIONS / np.pi
     height, width = before.shape
-    side = POSE.pixels // 2
-    cells: np.ndarray = planes.reshape(DIRECTIONS, height // side, side, width // side, side).mean(axis=(2, 4))
-    return cells
+    size = (2 * width // POSE.pixels, 2 * height // POSE.pixels)
+    cells = []
+    for direction in range(DIRECTIONS):
+        apart = np.abs(angle - direction)
+        np.minimum(apart, 2 * DIRECTIONS - apart, out=apart)  # all the way round is none …
+        np.minimum(apart, np.abs(DIRECTIONS - apart), out=apart)  # … and so is half way
+        share = np.maximum(1 - apart, 0) * strength
+        cells.append(cv2.resize(share, size, interpolation=cv2.INTER_AREA))
+    return np.stack(cells)
 
 
 def _coarser(cells: np.ndarray) -> np.ndarray:

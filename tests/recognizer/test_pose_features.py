@@ -8,7 +8,7 @@ import pytest
 
 from recognizer.body_features import blank
 from recognizer.mirror import mirrored
-from recognizer.pose_features import new_edges
+from recognizer.pose_features import levelled, new_edges
 from recognizer.window import POSE
 
 WIDTH, HEIGHT = POSE.size
@@ -26,8 +26,12 @@ def with_arm(room: np.ndarray, start: tuple[int, int], end: tuple[int, int]) -> 
     return picture
 
 
+def edges(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    return new_edges(levelled(before), levelled(after))
+
+
 def test_nothing_new_where_nothing_changed(room: np.ndarray) -> None:
-    assert new_edges(room, room).max() == 0
+    assert edges(room, room).max() == 0
 
 
 @pytest.mark.parametrize(
@@ -35,12 +39,12 @@ def test_nothing_new_where_nothing_changed(room: np.ndarray) -> None:
     [((20, 70), 0), ((60, 30), 2), ((60, 70), 3), ((60, -10), 1)],  # hanging, level, and two slanting arms
 )
 def test_an_arm_shows_which_way_it_points(room: np.ndarray, end: tuple[int, int], direction: int) -> None:
-    found = new_edges(room, with_arm(room, (20, 30), end))
+    found = edges(room, with_arm(room, (20, 30), end))
     assert int(np.argmax(found.sum(axis=(1, 2)))) == direction
 
 
 def test_edges_stand_where_the_arm_is(room: np.ndarray) -> None:
-    found = new_edges(room, with_arm(room, (12, 20), (12, 60))).sum(axis=0)
+    found = edges(room, with_arm(room, (12, 20), (12, 60))).sum(axis=0)
     row, column = np.unravel_index(np.argmax(found), found.shape)
     assert column == 12 // (POSE.pixels // 2)
     assert 20 // (POSE.pixels // 2) <= row <= 60 // (POSE.pixels // 2)
@@ -51,7 +55,7 @@ def test_mirrored_pictures_give_mirrored_features(room: np.ndarray) -> None:
     arm = with_arm(room, (20, 30), (50, 60))
     groups = {name: np.zeros(np.shape(values)) for name, values in blank()}
     turned = {name: values.copy() for name, values in groups.items()}
-    groups["edges_hold"] = new_edges(room, arm)
-    turned["edges_hold"] = new_edges(room[:, ::-1].copy(), arm[:, ::-1].copy())
+    groups["edges_hold"] = edges(room, arm)
+    turned["edges_hold"] = edges(room[:, ::-1].copy(), arm[:, ::-1].copy())
     one, other = (np.concatenate([np.ravel(v) for v in g.values()]) for g in (groups, turned))
     np.testing.assert_allclose(mirrored(one[None])[0], other, atol=0.05)
