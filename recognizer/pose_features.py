@@ -63,7 +63,10 @@ def levelled(picture: np.ndarray) -> np.ndarray:
     """Even out the contrast of a window POSE, (88, 112) float32, over a head height."""
     side = POSE.pixels + 1
     detail = picture - cv2.blur(picture, (side, side))
-    return detail * (25.0 / (np.sqrt(cv2.blur(detail * detail, (side, side))) + 6.0))
+    # Running sums of squares may end just below 0 where nothing varies.
+    deviation = np.sqrt(np.maximum(cv2.blur(detail * detail, (side, side)), 0))
+    levelled_picture: np.ndarray = detail * (25.0 / (deviation + 6.0))
+    return levelled_picture
 
 
 def new_edges(before: np.ndarray, after: np.ndarray) -> np.ndarray:
