@@ -1,9 +1,9 @@
 """Learn the head-and-shoulders templates anew: ``MUJOCO_GL=egl python docs/train_head_finder.py SET [SET …]``.
 
 Each SET is a folder that ``nao-sim film`` made. The clips do not say where the head is, but the same seed stages the
-same shot, and there the head can be projected. The shipped templates were learned on every second clip of the first 30
-persons of ``--persons 40 --takes 3 --irrelevant 800 --seed 2``, 868 clips filmed before waves, nods and rooms were
-varied as they are now; these persons take no part in the database or in its figures.
+same shot, and there the head can be projected. The shipped templates were learned with ``--persons 40 --every 1`` on
+``nao-sim film --out SET --persons 40 --takes 2 --irrelevant 400 --seed 7``, 1,439 clips (who walks is left out); these
+persons take no part in the database or in its figures.
 """
 
 from __future__ import annotations

@@ -34,23 +34,26 @@ class DiscriminantMetric(ClassNamePrefixFeaturesOutMixin, TransformerMixin, Base
 
     def fit(self, X: Any, y: Any) -> DiscriminantMetric:
         """Learn the directions from X (n_samples, n_features) and labels y (n_samples,)."""
-        X, y = validate_data(self, X, y, dtype=float)
+        X, y = validate_data(self, X, y, dtype=[np.float64, np.float32])
         check_classification_targets(y)
         if not 0 < self.shrinkage <= 1:
             raise ValueError(f"shrinkage={self.shrinkage}: choose above 0, up to 1")
         classes, index = np.unique(y, return_inverse=True)
         if len(classes) < 2:
             raise ValueError("the metric needs two classes at least; got 1 class")
-        self.mean_ = X.mean(axis=0)
-        deviation = X.std(axis=0)
+        self.mean_ = X.mean(axis=0, dtype=float)
+        deviation = X.std(axis=0, dtype=float)
         # A feature that hardly varies must not be blown up: small next to the typical one.
         self.scale_ = deviation + 0.02 * deviation.mean() + 1e-9
-        Z = (X - self.mean_) / self.scale_
-        means = np.zeros((len(classes), Z.shape[1]))
-        np.add.at(means, index, Z)
-        means /= np.bincount(index)[:, None]
+        by_class = np.argsort(index, kind="stable")
+        counts = np.bincount(index)
+        Z = X[by_class]
+        Z -= self.mean_.astype(Z.dtype)
+        Z /= self.scale_.astype(Z.dtype)
+        means = np.add.reduceat(Z, np.cumsum(counts) - counts, axis=0) / counts[:, None].astype(Z.dtype)
         # Single precision halves the time of the one large product; the shrinkage hides what it rounds.
-        within = (Z - means[index]).astype(np.float32)
+        within = (Z - np.repeat(means, counts, axis=0)).astype(np.float32, copy=False)
+        means = means.astype(float)
         covariance = (within.T @ within).astype(float) / len(Z)
         ridge = max(float(np.trace(covariance)) / len(covariance), 1e-9)
         covariance *= 1 - self.shrinkage
@@ -66,5 +69,5 @@ class DiscriminantMetric(ClassNamePrefixFeaturesOutMixin, TransformerMixin, Base
     def transform(self, X: Any) -> np.ndarray:
         """Project X (n_samples, n_features) to (n_samples, n_components)."""
         check_is_fitted(self)
-        X = validate_data(self, X, dtype=float, reset=False)
+        X = validate_data(self, X, dtype=[np.float64, np.float32], reset=False)
         return ((X - self.mean_) / self.scale_) @ self.components_
