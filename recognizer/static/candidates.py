@@ -44,7 +44,12 @@ class Candidate:
 
     def fills(self) -> bool:
         """Whether the object is as long as in a close-up."""
-        return bool(max(self.box[2:] * self.size) >= CLOSER * max(self.size))
+        return self.length >= CLOSER * max(self.size)
+
+    @property
+    def length(self) -> float:
+        """Longer side of the object's box, pixels of the photo."""
+        return float(max(self.box[2:] * self.size))
 
 
 def to_work_size(bgr: Image, side: int = WORK_SIDE) -> Image:

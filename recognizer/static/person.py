@@ -21,6 +21,8 @@ from recognizer.static.palm import HandFrame, hand_frames
 from recognizer.static.types import Floats, Image, Mask
 
 SURE = 0.25  # score of a head from which a person is believed to be in view
+POSSIBLE = -0.25  # score from which a person may be in view; three of four close-ups of hands stay below
+LONGEST_PART = 3.0  # heads: no face and no arm with its hand is longer
 CERTAIN = 1.4  # score from which it is no part of a close-up that happens to look like a head
 SEVERAL = 1.0  # score from which a further head is another person
 SMALLEST = 32  # pixels of a hand's expected length: below, fingers are some three pixels wide
@@ -80,6 +82,12 @@ def find_person(bgr: Image) -> Person | None:
     hand = HAND * heads[0].head
     spots = tuple(find_hands(bgr, heads)) if hand >= SMALLEST else ()
     return Person(heads[0].score, hand, spots, max(1, sum(head.score >= SEVERAL for head in heads)))
+
+
+def part_of_person(bgr: Image, length: float) -> bool:
+    """Whether an object of ``length`` [px] is rather the face or an arm of whoever looks a little like a person."""
+    heads = find_heads(bgr, 1)
+    return bool(heads) and heads[0].score >= POSSIBLE and length < LONGEST_PART * heads[0].head
 
 
 def places(person: Person) -> list[Place]:

@@ -18,7 +18,7 @@ from recognizer.static import baseline, descriptors, person_postures
 from recognizer.static.candidates import Candidate, beside_person, candidates, check_size, close_up, is_plain
 from recognizer.static.errors import HandTooSmallError, NoHandError, NoSkinError
 from recognizer.static.methods import method_of
-from recognizer.static.person import CERTAIN, Person, find_person
+from recognizer.static.person import CERTAIN, Person, find_person, part_of_person
 from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.types import Image
 
@@ -119,8 +119,9 @@ class PhotoRecognizer:
                 f"nothing in the photo is shaped like a hand (distance {best.decision.distance:.3g} from any known, "
                 f"limit {NO_HAND * self.model.threshold_:.3g}); show the whole hand before a plain background"
             )
-        if not best.candidate.fills() and not is_plain(image):
-            reason = f"something like {best.decision.nearest}, but small in a cluttered picture; come closer"
+        small = not best.candidate.fills()
+        if small and (not is_plain(image) or part_of_person(image, best.candidate.length)):
+            reason = f"something like {best.decision.nearest}, but small in the picture; come closer"
             return dataclasses.replace(best.decision, label=None, rejected=True, reason=reason), ()
         return best.decision, _warnings(seen)
 
