@@ -2,17 +2,15 @@
 
 Usage: python benchmarks/static_learn_persons.py FOLDER [--film] [--out recognizer/static/hand_windows.npz]
 
-With --film the folder is filled first (some 5,400 photos; seeds are those of no reported person), with --film-rest
-only with those of people whose arms hang. Otherwise it holds photos and a `hands.csv`: file, label, x and y of the
-middle finger's knuckle, length of the hand, x and y of the top of the neck, in pixels; "no hand" stands for a photo
-without a raised one, its length is that of a hand all the same. Photos labelled by hand serve as well.
+With --film the folder is filled first (some 5,000 photos; seeds are those of no reported person). Otherwise it holds
+photos and a `hands.csv`: file, label, x and y of the middle finger's knuckle, length of the hand, x and y of the top
+of the neck, in pixels. Photos labelled by hand serve as well.
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
-import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -21,13 +19,11 @@ from nao_sim.people import photos
 from nao_sim.people.dataset import plan
 from nao_sim.people.persons import body_scales
 from nao_sim.people.stage import Stage
-from recognizer.static.window_training import NO_HAND, KnownHand, train
+from recognizer.static.window_training import KnownHand, train
 
 COLUMNS = ("file", "label", "x", "y", "hand", "neck_x", "neck_y")
 TAKES = ((101, 80, 5), (103, 80, 4))  # seed, persons, takes of each posture
 OTHERS = (202, 60, 1)
-AT_REST = (404, 80, 3)
-ARMS_HANG = ("yes", "no")
 SMALLEST = 30  # pixels of a hand's length
 # Hands that show none of the postures: each finger as in another posture of the figure.
 OTHER_HANDS: dict[str, dict[str, str]] = {
@@ -76,22 +72,6 @@ def film(folder: Path) -> None:
             take(stage, job.photo(), folder, f"{seed}_{job.label}/p{job.person:03d}.jpg", "irrelevant ", rows)
 
 
-def film_rest(folder: Path) -> None:
-    """Render people whose arms hang, and add them to `hands.csv`: rooms and clothes must not pass for hands."""
-    photos.table()["close"]["share"] = -1.0
-    seed, persons, takes = AT_REST
-    label = photos.postures()[0]
-    with (folder / "hands.csv").open("a", newline="") as file, Stage(photos.DETAIL) as stage:
-        rows = csv.writer(file)
-        for job in plan(persons, takes, seed, [label]):
-            for motion in ARMS_HANG:
-                performance = dataclasses.replace(job, label=motion).shot().performance
-                moment = np.array([0.5 * performance.seconds])
-                photo = dataclasses.replace(job.photo(), angles=performance.angles(moment)[0])
-                name = f"{seed}_rest/{motion}_p{job.person:03d}_{job.take}.jpg"
-                take(stage, dataclasses.replace(photo, label=NO_HAND), folder, name, "", rows)
-
-
 def take(stage: Stage, photo: photos.Photo, folder: Path, name: str, prefix: str, rows: csv._writer) -> None:
     """Render one photo if its hand is large enough, and note where the hand is."""
     stage.cast(photo.person, photo.outfit)
@@ -130,13 +110,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--film", action="store_true")
-    parser.add_argument("--film-rest", action="store_true")
     parser.add_argument("--out", type=Path, default=Path("recognizer/static/hand_windows.npz"))
     arguments = parser.parse_args()
     if arguments.film:
         film(arguments.folder)
-    if arguments.film or arguments.film_rest:
-        film_rest(arguments.folder)
     train(read(arguments.folder), arguments.out)
 
 

@@ -24,7 +24,6 @@ from recognizer.static.types import Floats, Image
 COARSE_RIDGE = 300.0
 ROUNDS = 2  # of adding what is mistaken for a hand, each from half of the photos
 RANDOM_PLACES, HARD_PLACES = 6, 6  # of no hand in a photo
-MISTAKEN = 3  # places named "no hand" in a photo without one; one in a photo with a hand
 NO_HAND = "no hand"
 COMPONENTS, SHRINKAGE = 1200, 0.05
 JITTER = (0.05, 0.09, 0.15)  # standard deviations of place [hands], size [logarithm] and turn [rad]
@@ -36,7 +35,7 @@ class KnownHand:
 
     Attributes:
         path: the photo.
-        label: the posture; other hands begin with "irrelevant"; NO_HAND where none is raised.
+        label: the posture; other hands begin with "irrelevant".
         middle: (2,) x, y of the middle finger's knuckle.
         hand: length of the hand, wrist to fingertips.
         neck: (2,) x, y of the top of the neck.
@@ -61,9 +60,7 @@ class Seen:
         return read_photo(self.known.path)
 
     def away(self, x: float, y: float) -> float:
-        """Return how far a place is from the hand, hand lengths; infinitely where none is raised."""
-        if self.known.label == NO_HAND:
-            return float("inf")
+        """Return how far a place is from the hand, hand lengths."""
         return float(np.hypot(x - self.known.middle[0], y - self.known.middle[1])) / self.known.hand
 
 
@@ -106,7 +103,7 @@ def _coarse(seen: list[Seen], rng: np.random.Generator, tell: Callable[[str], No
     for s in seen:
         picture = s.picture()
         face, known = face_colour(picture, s.head), s.known
-        for _ in range(2 if known.label != NO_HAND else 0):
+        for _ in range(2):
             middle = known.middle + rng.normal(0, 0.04, 2) * known.hand
             size, turn = known.hand * np.exp(rng.normal(0, 0.08)), rng.normal(0, 0.12)
             hands.append(windows.coarse_vector(picture, middle, size, face, turn))
@@ -118,8 +115,7 @@ def _coarse(seen: list[Seen], rng: np.random.Generator, tell: Callable[[str], No
         for s in seen[turn_number::ROUNDS]:
             picture = s.picture()
             spots = search(picture, s.head, _template(weights), weights[1])
-            if s.known.label != NO_HAND:
-                first.append(bool(spots) and s.away(spots[0].x, spots[0].y) < 0.25)
+            first.append(bool(spots) and s.away(spots[0].x, spots[0].y) < 0.25)
             mistaken = [spot for spot in spots[:HARD_PLACES] if s.away(spot.x, spot.y) > 0.4]
             others += [windows.coarse_vector(picture, m.middle, m.hand, m.face) for m in mistaken]
         tell(f"round {turn_number + 1}: the hand is the first of its photo in {np.mean(first):.3f}")
@@ -156,19 +152,19 @@ def _fine_windows(seen: list[Seen], coarse: Weights, rng: np.random.Generator) -
 
 
 def _windows_of(s: Seen, coarse: Weights, rng: np.random.Generator) -> Iterator[tuple[np.ndarray, str]]:
-    """Yield the hand as it stands and as it is found, and the first places that are taken for a hand and are none."""
+    """Yield the hand as it stands and as it is found, and the first place that is taken for a hand and is none."""
     picture, known = s.picture(), s.known
-    for _ in range(3 if known.label != NO_HAND else 0):
+    for _ in range(3):
         middle = known.middle + rng.normal(0, JITTER[0], 2) * known.hand
         size = known.hand * np.exp(rng.normal(0, JITTER[1]))
         yield windows.fine_vector(picture, middle, size, rng.normal(0, JITTER[2])), known.label
-    mistaken, most = 0, MISTAKEN if known.label == NO_HAND else 1
+    mistaken = False
     for spot in search(picture, s.head, _template(coarse), coarse[1])[:8]:
         away = s.away(spot.x, spot.y)
         if away < 0.22:
             yield windows.fine_vector(picture, spot.middle, spot.hand), known.label
-        elif away > 0.4 and mistaken < most:
-            mistaken += 1
+        elif away > 0.4 and not mistaken:
+            mistaken = True
             yield windows.fine_vector(picture, spot.middle, spot.hand), NO_HAND
 
 
