@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from recognizer.finder import Body
-from recognizer.static import candidates, person_postures, recognise, windows
+from recognizer.static import candidates, person, person_postures, recognise, windows
 from recognizer.static.contrast import divide
 from recognizer.static.errors import NoHandError
 from recognizer.static.hand_finder import HAND, Spot, face_colour, find_hands, search, weights
@@ -85,6 +85,27 @@ def test_hands_of_filmed_persons_are_named_and_seldom_wrongly(recognizer):
     assert len(found) >= 5
     assert right >= 0.4, found
     assert wrong <= 0.3, found
+
+
+@pytest.mark.parametrize(
+    ("score", "head", "named"),
+    [
+        (0.0, 90.0, False),  # a hand no longer than an arm beside what looks a little like a head
+        (0.0, 30.0, True),  # too long to belong to so small a head
+        (-0.8, 90.0, True),  # nothing like a head
+    ],
+)
+def test_a_small_object_is_part_of_whoever_seems_in_view(monkeypatch, recognizer, score, head, named):
+    hand = unseen_hands("stop_hand", 1, seed=21)[0]
+    scene = np.zeros((480, 640), bool)
+    scene[200 : 200 + hand.shape[0], 240 : 240 + hand.shape[1]] = hand
+    from .conftest import hand_photo
+
+    monkeypatch.setattr(person, "find_heads", lambda picture, count=3: [Body(300.0, 240.0, head, score)])
+    answer = recognizer.recognize(hand_photo(scene))
+    assert answer.nearest == "stop_hand"
+    assert answer.label == ("stop_hand" if named else None)
+    assert ("small in the picture" in answer.reason) is not named
 
 
 def test_a_hand_too_small_for_its_fingers_is_rejected_for_that_reason(monkeypatch, recognizer):
