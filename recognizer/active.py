@@ -7,7 +7,7 @@ import functools
 
 import numpy as np
 
-from recognizer.window import Step
+from recognizer.steps import Steps
 
 PHASES = 5  # as many as the thesis's consecutive states
 TRIMMED = (0.01, 0.985)  # share of all motion that begins and ends the active part
@@ -48,11 +48,10 @@ class Active:
         return float(np.median(self.seconds))
 
 
-def active_part(steps: list[Step]) -> Active:
-    """Stack steps and find the active part: where all but the first and last per cent of the motion happens."""
-    flow = np.array([step.flow for step in steps])
-    speed = np.array([step.speed for step in steps])
-    seconds = np.array([step.seconds for step in steps], np.float32)
+def active_part(steps: Steps) -> Active:
+    """Find the active part of a clip's steps: where all but the first and last per cent of the motion happens."""
+    flow, speed = steps.stacked("flow"), steps.stacked("speed")
+    seconds = steps.stacked("seconds").astype(np.float32)
     moved = speed.mean(axis=(1, 2)) * seconds
     total = float(moved.sum())
     along = np.cumsum(moved) / (total + 1e-6)
@@ -63,11 +62,11 @@ def active_part(steps: list[Step]) -> Active:
         flow[:, 0],
         flow[:, 1],
         speed,
-        np.array([step.ways for step in steps]),
-        np.array([step.head_flow for step in steps]),
-        np.array([step.torso for step in steps]),
-        np.array([step.picture for step in steps]),
-        np.array([step.pose for step in steps]),
+        steps.stacked("ways"),
+        steps.stacked("head_flow"),
+        steps.stacked("torso"),
+        steps.stacked("picture"),
+        steps.stacked("pose"),
         seconds,
         first,
         last,

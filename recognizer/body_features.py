@@ -19,8 +19,9 @@ from recognizer.head_features import SWAY_SECONDS, head_features, running_mean
 from recognizer.head_motion import LIGHT
 from recognizer.head_motion import NAMES as HEAD_MOTIONS
 from recognizer.pose_features import pose_features
+from recognizer.steps import Steps
 from recognizer.unrest import unrest_features
-from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, Step, make_step
+from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, make_step
 
 METHOD = "body"
 VERSION = 3
@@ -32,12 +33,12 @@ Item = tuple[str, np.ndarray]
 
 
 def describe(
-    steps: list[Step], head_motion: np.ndarray, regions: list[MovingRegions], body: Body, size: tuple[int, int]
+    steps: Steps, head_motion: np.ndarray, regions: list[MovingRegions], body: Body, size: tuple[int, int]
 ) -> list[Item]:
     """Return named groups of features of one clip.
 
     Args:
-        steps: from :class:`recognizer.window.Windows`.
+        steps: from :class:`recognizer.window.Windows`; 2 at least.
         head_motion: from :class:`recognizer.head_motion.HeadMotion`, (n, 17).
         regions: moving regions in the whole image.
         body: place and size of the person [px of an image of ``size``].
@@ -178,7 +179,9 @@ def blank() -> list[Item]:
     zero = np.zeros((2, 64, 80), np.float32)
     head = np.zeros((2, *HEAD_X.shape), np.float32)
     pose = np.zeros(POSE.size[::-1], np.uint8)
-    steps = [make_step(0.1 * i, 0.1, zero[0], zero, head, pose) for i in range(1, 8)]
+    steps = Steps(7)
+    for i in range(1, 8):
+        steps.append(make_step(0.1 * i, 0.1, zero[0], zero, head, pose))
     head_motion = np.zeros((7, 2 + len(HEAD_MOTIONS) + len(LIGHT)), np.float32)
     head_motion[:, 1] = 0.1
     return describe(steps, head_motion, [], Body(40, 40, 10, 0), (320, 240))

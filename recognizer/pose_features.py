@@ -53,7 +53,7 @@ def _changes(active: Active) -> Iterator[Item]:
 
 def _held_longest(active: Active, standing: np.ndarray) -> slice:
     """Steps around the moment that is, for half a second, furthest from the pose at rest."""
-    away = np.abs(active.pictures[active.first : active.last] - standing).mean(axis=(1, 2))
+    away = np.array([cv2.norm(p, standing, cv2.NORM_L1) for p in active.pictures[active.first : active.last]])
     middle = active.first + int(np.argmax(np.convolve(away, np.ones(HOLD_STEPS), "same")[: len(away)]))
     half = HOLD_STEPS // 2
     return slice(max(active.first, middle - half), min(active.last, middle + half + 1))

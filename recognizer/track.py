@@ -15,7 +15,8 @@ from recognizer.flow import horn_schunck
 from recognizer.head_motion import HeadMotion
 from recognizer.samples import LOOKS, Sample, Sampler
 from recognizer.scene import Scene
-from recognizer.window import Step, Windows
+from recognizer.steps import Steps
+from recognizer.window import Windows
 
 MIN_SAMPLES = 6  # six key frames make the five states of a large gesture
 FLOW_ITERATIONS = 30
@@ -43,7 +44,7 @@ class Track:
         self.sampler = Sampler(fps, first_index)
         kept = self.sampler.kept
         self.regions: deque[MovingRegions] = deque(maxlen=kept)
-        self.steps: deque[Step] = deque(maxlen=kept)
+        self.steps = Steps(kept)
         self._waiting: deque[Sample] = deque(maxlen=kept)
         self._finder = BodyFinder() if find_body else None
         self._windows: Windows | None = None
