@@ -159,7 +159,7 @@ def _whole_image(regions: list[MovingRegions], body: Body, size: tuple[int, int]
         quarter = max(1, len(rows) // 4)
         first, last = slice(0, quarter), slice(-quarter, None)
         dx, dy = (np.average(c[last], weights=area[last]) - np.average(c[first], weights=area[first]) for c in (x, y))
-        wide, tall = np.quantile(x, 0.95) - np.quantile(x, 0.05), np.quantile(y, 0.95) - np.quantile(y, 0.05)
+        wide, tall = np.diff(np.quantile(rows[:, :2], (0.05, 0.95), axis=0), axis=0)[0]
         steady = float(np.corrcoef(x, np.arange(len(x)))[0, 1]) if x.std() > 1e-6 else 0.0
         in_heads = [np.sign(dx) * min(5, abs(dx) / head / 2), min(5, wide / head / 2), min(5, tall / head / aspect / 2)]
         net = float((u * area).sum() / ((np.abs(u) * area).sum() + 0.01))

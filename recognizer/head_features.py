@@ -67,10 +67,11 @@ def _modes(signals: np.ndarray, sideways: np.ndarray, floor: float) -> np.ndarra
 
 def running_mean(values: np.ndarray, steps: int) -> np.ndarray:
     """Mean over a window of about ``steps`` values around each, (n, k)."""
-    window = np.ones(max(1, min(steps, len(values))) | 1)
-    n = len(values)
-    covered = np.convolve(np.ones(n), window, "same")[:n]
-    return np.column_stack([np.convolve(column, window, "same")[:n] for column in values.T]) / covered[:, None]
+    n, half = len(values), max(1, min(steps, len(values))) // 2
+    sums = np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
+    last, first = np.minimum(np.arange(n) + half + 1, n), np.maximum(np.arange(n) - half, 0)
+    mean: np.ndarray = (sums[last] - sums[first]) / (last - first)[:, None]
+    return mean
 
 
 def _beats(signal: np.ndarray, period: float) -> np.ndarray:
