@@ -61,7 +61,9 @@ class View:
     def pixels(self, points: Array) -> tuple[Array, Array]:
         """Column and row (n, 2) of world points (n, 3), and pixels a metre there (n,); below zero behind the camera."""
         seen = (points - self._pos) @ self._frame
-        scale = -self._focal / seen[:, 2]
+        depth = -seen[:, 2]
+        depth[depth == 0] = 1e-9  # in the camera's own plane, where nothing is seen
+        scale = self._focal / depth
         return seen[:, :2] * scale[:, None] + self._centre, scale
 
     def box(self, points: Array, margin: float) -> tuple[int, int, int, int]:

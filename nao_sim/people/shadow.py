@@ -13,6 +13,7 @@ STRENGTH = 0.5
 # How far (m) the spot reaches beyond the ankles, sideways and forward, and how soft its edge is.
 _REACH = np.array([0.17, 0.13])
 _EDGE = 0.06
+_AT_LENS = 10.0  # pixels a metre, in picture sides: nearer than some 10 cm
 _TURN = np.linspace(0, 2 * np.pi, 20, endpoint=False)
 _RING = np.stack([np.cos(_TURN), np.sin(_TURN)], axis=1)
 
@@ -31,7 +32,11 @@ def shade_floor(picture: NDArray[np.uint8], ankles: Array, view: View) -> None:
     ground = np.zeros((len(_RING), 3))
     ground[:, :2] = ankles[:, :2].mean(axis=0) + _RING * (spread + _REACH)
     seen, scale = view.pixels(ground)
-    edge = max(1.0, _EDGE * float(scale.mean()))
+    # Feet at the lens, beside or behind it: their spot is not in the picture.
+    if scale.min() <= 0 or scale.max() > _AT_LENS * max(height, width):
+        return
+    # Near feet would ask for a blur wider than the picture, which takes minutes.
+    edge = float(np.clip(_EDGE * float(scale.mean()), 1.0, max(height, width) / 4))
     low, high = np.floor(seen.min(axis=0) - 2 * edge), np.ceil(seen.max(axis=0) + 2 * edge)
     left, bottom = (int(v) for v in np.maximum(low, 0))
     right, top = (int(v) for v in np.minimum(high, (width, height)))
