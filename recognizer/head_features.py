@@ -8,6 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from recognizer.head_motion import NAMES
+
 SWAY_SECONDS = 0.7  # slower motion of the head is sway, a nod or shake is quicker
 SMOOTH_SECONDS = 0.08  # what a quick camera sees beyond is noise
 STRONGEST_SECONDS = 1.0  # a nod or two
@@ -29,7 +31,8 @@ def head_features(motion: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
         Groups of features, none of which changes when the clip is mirrored.
     """
     period = float(np.median(motion[:, 1]))
-    right, down, roll, nearer, turn, nod, chest_right, chest_down = motion[:, 2:10].T
+    motions, light, contrast = np.split(motion[:, 2:], [len(NAMES), -1], axis=1)
+    right, down, roll, nearer, turn, nod, chest_right, chest_down = motions.T
     # A head that turns about its neck moves, too; a person who sways takes the chest along.
     own_right, own_down = right - chest_right, down - chest_down
     sideways = [right, roll, turn, chest_right, own_right, turn + own_right]
@@ -40,10 +43,10 @@ def head_features(motion: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     turned = np.arange(quick.shape[1]) < len(sideways)
     yield "head_whole", _modes(quick, turned, _FLOOR)
     yield "head_peak", _modes(quick[max(0, strongest - half) : strongest + half + 1], turned, _FLOOR)
-    light = _quick(motion[:, 10:16] / (float(np.median(motion[:, 16])) + 1.0), period)
-    yield "head_light", _modes(light, _LIGHT_SIDEWAYS, _LIGHT_FLOOR)
+    shades = _quick(light / (float(np.median(contrast)) + 1.0), period)
+    yield "head_light", _modes(shades, _LIGHT_SIDEWAYS, _LIGHT_FLOOR)
     yield "head_bursts", np.array([0.5 * math.log((power.max() + 1e-3) / (power.mean() + 1e-3))])
-    yield "head_beats", np.concatenate([_beats(quick[:, i], period) for i in (5, 11)])
+    yield "head_beats", np.concatenate([_beats(quick[:, i], period) for i in (len(sideways) - 1, -1)])
 
 
 def _quick(signals: np.ndarray, period: float) -> np.ndarray:

@@ -45,8 +45,11 @@ class MotionFit:
         columns, rows = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
         self._places = np.stack([columns, rows])
 
-    def __call__(self, first: np.ndarray, second: np.ndarray, start: np.ndarray, steps: int) -> np.ndarray:
-        """Return the amounts (k,) of each motion that take ``first`` to ``second``, (h, w) float32 both."""
+    def __call__(self, first: np.ndarray, second: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Return the amounts (k,) of each motion that take ``first`` to ``second``, (h, w) float32 both.
+
+        The search begins at ``start``, (k,) amounts.
+        """
         gx = cv2.Sobel(first, cv2.CV_32F, 1, 0, ksize=3) / 8
         gy = cv2.Sobel(first, cv2.CV_32F, 0, 1, ksize=3) / 8
         change = (self.fields[:, 0] * gx + self.fields[:, 1] * gy).reshape(len(self.fields), -1)
@@ -56,7 +59,7 @@ class MotionFit:
         # Small and well conditioned thanks to the stiffness: one inverse serves all steps.
         solver = cv2.invert(normal, flags=cv2.DECOMP_CHOLESKY)[1].astype(np.float32) @ weighted
         amounts, still = start.astype(np.float32), first.ravel()
-        for _ in range(steps):
+        for _ in range(STEPS):
             columns, rows = self._places + (amounts @ self._flat).reshape(self._places.shape)
             moved = cv2.remap(second, columns, rows, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
             amounts = amounts - solver @ (moved.ravel() - still)
@@ -124,5 +127,5 @@ def _halves(window: np.ndarray) -> list[np.ndarray]:
 def _coarse_to_fine(fits: list[MotionFit], first: list[np.ndarray], second: list[np.ndarray]) -> np.ndarray:
     amounts = np.zeros(len(fits[0].fields))
     for fit, a, b in zip(fits, first, second, strict=True):
-        amounts = fit(a, b, amounts, STEPS)
+        amounts = fit(a, b, amounts)
     return amounts

@@ -25,8 +25,8 @@ def pose_features(active: Active) -> Iterator[Item]:
     """Describe poses of the active part against each other and against the rest before it."""
     yield from _changes(active)
     rest = slice(max(0, active.first - 2), active.first + 1)
-    held = _held_longest(active, active.pictures[rest].mean(axis=0))
     standing = active.pictures[rest].mean(axis=0)
+    held = _held_longest(active, standing)
     yield "changed_hold", cell_means((np.abs(active.pictures[held].mean(axis=0) - standing) > HELD).astype(float), 2)
     before = levelled(active.poses[rest].mean(axis=0, dtype=np.float32))
     yield "edges_hold", new_edges(before, levelled(active.poses[held].mean(axis=0, dtype=np.float32)))

@@ -86,7 +86,8 @@ class Recognition:
         reason: why rejected, with the distance; empty otherwise.
         distance: by the default method the share of irrelevant motion in what speaks for it or the gesture, 0 … 1;
             otherwise to the nearest row of that gesture.
-        threshold: distance beyond which a gesture is rejected.
+        threshold: distance beyond which a gesture is rejected; one like nothing known is rejected whatever its share,
+            which ``reason`` says.
         votes: label -> share of the votes.
         neighbours: nearest rows of the database, nearest first.
         amplitude: small or large by the path of motion; None for a photo.

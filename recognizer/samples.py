@@ -70,9 +70,8 @@ class Sampler:
             return None
         self._taken += 1
         height, width = frame.shape[:2]
-        if max(height, width) > IMAGE_SIDE:
-            image = cv2.resize(frame, scaled_size(width, height, IMAGE_SIDE), interpolation=cv2.INTER_AREA)
-        else:
+        image = _limited(frame)
+        if image is frame:
             image = frame.copy()
         grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
         small = cv2.resize(grey, scaled_size(width, height, FLOW_SIDE), interpolation=cv2.INTER_AREA)
@@ -87,8 +86,12 @@ class Sampler:
         if number < round(self._looks_taken * self._look_step):
             return
         self._looks_taken += 1
-        grey = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY)
-        height, width = grey.shape
-        if max(height, width) > IMAGE_SIDE:
-            grey = cv2.resize(grey, scaled_size(width, height, IMAGE_SIDE), interpolation=cv2.INTER_AREA)
-        self._looks.append((number / self.fps, grey))
+        self._looks.append((number / self.fps, _limited(cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY))))
+
+
+def _limited(picture: np.ndarray) -> np.ndarray:
+    """A picture whose longer side is at most IMAGE_SIDE: itself, or shrunk."""
+    height, width = picture.shape[:2]
+    if max(height, width) <= IMAGE_SIDE:
+        return picture
+    return cv2.resize(picture, scaled_size(width, height, IMAGE_SIDE), interpolation=cv2.INTER_AREA)
