@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from recognizer.database import IRRELEVANT, Database
 from recognizer.decision import SHOWN, Decision, neighbour
-from recognizer.metric import DiscriminantMetric
-from recognizer.mirror import with_mirrored
+from recognizer.known import KnownRows
+from recognizer.mirror import mirrored_map, twins
 from recognizer.weighing import Weights
 
 NEIGHBOURS = 5
@@ -16,14 +18,7 @@ POWER = 2.0  # n of the votes 1/dⁿ where no weights could be learnt
 SHRINKAGE = 0.3
 FALSE_REJECTION = 0.03  # share of true gestures of unseen persons that the limit gives up
 NEVER_SEEN = 0.002  # share of them that is further from its gesture than anything answered
-FOLDS = 6
 BATCH = 500  # vectors whose distances are worked out at a time
-
-
-def metric_classes(database: Database) -> np.ndarray:
-    """Classes that the metric separates: gestures, and each kind of irrelevant motion by itself."""
-    irrelevant = database.labels == IRRELEVANT
-    return np.where(irrelevant, np.char.add("irrelevant:", database.actions), database.labels)
 
 
 class BodyModel:
@@ -48,37 +43,54 @@ class BodyModel:
         """Every row is learned from, irrelevant motion too."""
         return database
 
+    @classmethod
+    def learner(cls, database: Database) -> Callable[[np.ndarray], BodyModel]:
+        """Return what learns models from some rows (a mask or indices) of a database; each costs little."""
+        known = KnownRows(database)
+
+        def learn(rows: np.ndarray) -> BodyModel:
+            used = np.zeros(len(database), bool)
+            used[rows] = True
+            return cls()._learn(known, used)
+
+        return learn
+
     def fit(self, database: Database) -> BodyModel:
         """Learn metric, weights and limits, or take them from the database where they are stored."""
         stored = database.arrays
-        if "components" in stored:
-            self.rows = with_mirrored(database)
-            self._measure(stored["mean"], stored["scale"], stored["components"].astype(np.float32))
-            self.weights_ = Weights(stored["coefficients"], stored["offsets"])
-            self.limit_, self.farthest_ = float(stored["limit"]), float(stored["farthest"])
-            return self
-        self._learn_metric(database)
-        self._learn_weights(database)
+        if "components" not in stored:
+            return self._learn(KnownRows(database), np.ones(len(database), bool))
+        self.rows = database.rows
+        if database.mirror:
+            self.rows = self.rows.with_others(twins(database))
+        metric = stored["mean"], stored["scale"], stored["components"].astype(np.float32)
+        self._measure(*metric, database.features, bool(database.mirror))
+        self.weights_ = Weights(stored["coefficients"], stored["offsets"])
+        self.limit_, self.farthest_ = float(stored["limit"]), float(stored["farthest"])
         return self
 
-    def _learn_metric(self, database: Database) -> None:
-        self.rows = with_mirrored(database)
-        classes = metric_classes(self.rows)
-        if len(np.unique(classes)) < 2:  # nothing to tell apart: every feature counts by its own spread
-            deviation = self.rows.features.std(axis=0) + 1e-3
-            size = len(deviation)
-            self._measure(self.rows.features.mean(axis=0), deviation, np.eye(size) / np.sqrt(size))
-            return
-        metric = DiscriminantMetric(self.shrinkage).fit(self.rows.features, classes)
-        self._measure(metric.mean_, metric.scale_, metric.components_)
+    def _learn(self, known: KnownRows, used: np.ndarray) -> BodyModel:
+        self._learn_metric(known, used)
+        self._learn_weights(known, used)
+        return self
 
-    def _measure(self, mean: np.ndarray, scale: np.ndarray, components: np.ndarray) -> None:
+    def _learn_metric(self, known: KnownRows, used: np.ndarray) -> None:
+        self.rows = known.rows(used)
+        features = known.database.features[used]
+        self._measure(*known.metric(used, self.shrinkage), features, bool(known.database.mirror))
+
+    def _measure(
+        self, mean: np.ndarray, scale: np.ndarray, components: np.ndarray, features: np.ndarray, twins: bool
+    ) -> None:
         self._mean, self._scale, self._components = mean, scale, components
         # In single precision and one product: a database is projected in a tenth of a second.
         self._map = (components / scale[:, None]).astype(np.float32)
         self._origin = (mean @ (components / scale[:, None])).astype(np.float32)
-        self._projected = self.project(self.rows.features)
-        self._squares = np.einsum("nc,nc->n", self._projected, self._projected)
+        projected = self.project(features)
+        if twins:
+            projected = np.concatenate([projected, features @ mirrored_map(self._map) - self._origin])
+        self._projected = projected
+        self._squares = np.einsum("nc,nc->n", projected, projected)
         self._labels, self._targets = np.unique(self.rows.labels, return_inverse=True)
         self._rows_of = [np.flatnonzero(self._targets == target) for target in range(len(self._labels))]
 
@@ -100,20 +112,19 @@ class BodyModel:
             "farthest": np.array(self.farthest_),
         }
 
-    def _learn_weights(self, database: Database) -> None:
+    def _learn_weights(self, known: KnownRows, used: np.ndarray) -> None:
         """Weights and limits from persons whose rows are left out, by folds over persons."""
         self.weights_, self.limit_, self.farthest_ = Weights.plain(len(self._labels), POWER), np.inf, np.inf
-        persons = np.unique(database.persons)
-        if len(persons) < 2 or len(self._labels) < 2:
+        groups = np.unique(known.groups[used])
+        if len(groups) < 2 or len(self._labels) < 2:
             return
         distances, targets = [], []
-        for fold in range(min(FOLDS, len(persons))):
-            unseen = np.isin(database.persons, persons[fold::FOLDS])
+        for group in groups:
+            unseen = used & (known.groups == group)
             model = BodyModel(self.n_neighbors, self.shrinkage)
-            model._learn_metric(database.take(~unseen))
-            shown = database.take(unseen)
-            distances.append(model._distances_to(self._labels, shown.features))
-            targets.append(np.searchsorted(self._labels, shown.labels))
+            model._learn_metric(known, used & ~unseen)
+            distances.append(model._distances_to(self._labels, known.database.features[unseen]))
+            targets.append(np.searchsorted(self._labels, known.database.labels[unseen]))
         found, true = np.concatenate(distances), np.concatenate(targets)
         if len(np.unique(true)) == len(self._labels):
             self.weights_ = Weights.fit(found, true)

@@ -16,7 +16,30 @@ import pyarrow.parquet as pq
 from recognizer.errors import DatabaseError
 
 IRRELEVANT = "irrelevant"  # family and label of motions that must not be answered
-_CODES: dict[int, np.dtype[Any]] = {8: np.dtype("u1"), 16: np.dtype("<u2")}
+CLIPPED = 0.002  # share of a feature's values at either end that a few bits are not spent on
+
+
+@dataclasses.dataclass(frozen=True)
+class Rows:
+    """What is known of rows beside their features; columns as in :class:`Database`, (n,) str each."""
+
+    labels: np.ndarray
+    families: np.ndarray
+    actions: np.ndarray
+    persons: np.ndarray
+    sources: np.ndarray
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.labels)
+
+    def take(self, rows: np.ndarray) -> Rows:
+        """Return the rows of a mask or index array."""
+        return Rows(*(getattr(self, name)[rows] for name in _TEXT))
+
+    def with_others(self, others: Rows) -> Rows:
+        """Return these rows and others after them."""
+        return Rows(*(np.concatenate([getattr(rows, name) for rows in (self, others)]) for name in _TEXT))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,7 +59,8 @@ class Database:
         mirror: label -> label of the same motion with left and right exchanged.
         provenance: how it was made (command, data set, seeds, scores), JSON-able.
         arrays: what was learned from the rows (projection, threshold …), by name.
-        bits: 8 or 16, in which each feature is stored, over its own range.
+        bits: 2 to 16, in which each feature is stored, over its own range; of 8 or fewer none are spent on the
+            outermost values.
     """
 
     features: np.ndarray
@@ -73,10 +97,15 @@ class Database:
         """Return the number of rows."""
         return len(self.labels)
 
+    @property
+    def rows(self) -> Rows:
+        """All columns but the features."""
+        return Rows(*(getattr(self, name) for name in _TEXT))
+
     def take(self, rows: np.ndarray) -> Database:
         """Return the rows of a mask or index array; what was learned from all rows is dropped."""
-        names = ("features", "labels", "families", "actions", "persons", "sources")
-        return dataclasses.replace(self, **{name: getattr(self, name)[rows] for name in names}, arrays={})
+        columns = {name: getattr(self, name)[rows] for name in ("features", *_TEXT)}
+        return dataclasses.replace(self, **columns, arrays={})
 
     def rounded(self) -> Database:
         """Return the database as it will be read back, so that what is learned from it holds for what is stored."""
@@ -84,9 +113,13 @@ class Database:
         return dataclasses.replace(self, features=_decoded(codes, low, step))
 
     def _codes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        low, high = self.features.min(axis=0).astype(np.float64), self.features.max(axis=0)
+        clipped = CLIPPED if self.bits <= 8 else 0.0
+        # Values that occur, so that rounding twice is rounding once.
+        low = np.quantile(self.features, clipped, axis=0, method="lower").astype(np.float64)
+        high = np.quantile(self.features, 1 - clipped, axis=0, method="higher").astype(np.float64)
         step = np.maximum(high - low, 1e-12) / (2**self.bits - 1)
-        return np.round((self.features - low) / step).astype(_CODES[self.bits]), low, step
+        codes = np.round((self.features.clip(low, high) - low) / step)
+        return codes.astype(_code(self.bits)), low, step
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the table atomically.
@@ -135,7 +168,7 @@ class Database:
             with np.load(io.BytesIO(meta[b"arrays"]), allow_pickle=False) as packed:
                 arrays = {name: packed[name] for name in packed.files}
             width = len(header["names"])
-            code = _CODES[header["bits"]]
+            code = _code(int(header["bits"]))
             codes = np.frombuffer(b"".join(table["features"].to_pylist()), code).reshape(len(table), width)
             text: dict[str, Any] = {name: np.array(table[name].to_pylist(), dtype=str) for name in _TEXT}
             features = _decoded(codes, arrays.pop("low"), arrays.pop("step"))
@@ -144,6 +177,11 @@ class Database:
         header["names"] = tuple(header["names"])
         learned = {name[1:]: value for name, value in arrays.items()}
         return cls(features=features, **text, **header, arrays=learned)
+
+
+def _code(bits: int) -> str:
+    """Smallest type that holds so many bits."""
+    return "u1" if bits <= 8 else "<u2"
 
 
 def _decoded(codes: np.ndarray, low: np.ndarray, step: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from recognizer.database import Database
+from recognizer.database import Database, Rows
 from recognizer.neighbours import votes_of
 
 SHOWN = 5  # neighbours reported
@@ -85,8 +85,8 @@ def decide(
     return Decision(None if far else winner, winner, family, far, reason, distance, threshold, shares, neighbours)
 
 
-def neighbour(database: Database, row: int, distance: float) -> Neighbour:
+def neighbour(rows: Database | Rows, row: int, distance: float) -> Neighbour:
     """Describe one row of a database."""
-    columns = (database.labels, database.actions, database.persons, database.sources)
+    columns = (rows.labels, rows.actions, rows.persons, rows.sources)
     label, action, person, source = (str(column[row]) for column in columns)
     return Neighbour(label, action, person, source, distance)

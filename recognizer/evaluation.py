@@ -109,8 +109,9 @@ def evaluate(
     rejected = np.zeros(n, bool)
     right = {k: np.zeros(n, bool) for k in KS}
     splits = list(folds(database, protocol))
+    learn = model_class.learner(database)
     for number, (train, test) in enumerate(splits, 1):
-        model = model_class().fit(model_class.trainable(database.take(train)))
+        model = learn(train)
         for row in test:
             vector = database.features[row]
             decision = model.decide(vector)

@@ -47,7 +47,7 @@ def _body(track: Track) -> np.ndarray:
 METHODS = {
     method.name: method
     for method in (
-        Method(body_features.METHOD, body_features.VERSION, body_features.names(), _body, BodyModel, True, 8),
+        Method(body_features.METHOD, body_features.VERSION, body_features.names(), _body, BodyModel, True, 4),
         Method(thesis.METHOD, thesis.VERSION, thesis.NAMES, thesis.features, thesis.ThesisModel, False, 16),
     )
 }

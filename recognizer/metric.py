@@ -5,16 +5,20 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
 from sklearn.base import BaseEstimator, ClassNamePrefixFeaturesOutMixin, TransformerMixin
 from sklearn.utils.multiclass import check_classification_targets
 from sklearn.utils.validation import check_is_fitted, validate_data
+
+from recognizer.scatter import Scatter
 
 
 class DiscriminantMetric(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
     """Project onto the directions that separate the classes, scaled so that persons of one class differ by 1.
 
     Fisher's discriminant with the within-class covariance shrunk towards a multiple of the identity
-    (Friedman, JASA 84, 1989). One Cholesky-sized solve: a thousand clips of a thousand features take a second.
+    (Friedman, JASA 84, 1989). One product of the rows with themselves and one Cholesky factor: a thousand clips of a
+    thousand features take a second.
 
     Parameters
     ----------
@@ -41,25 +45,23 @@ class DiscriminantMetric(ClassNamePrefixFeaturesOutMixin, TransformerMixin, Base
         classes, index = np.unique(y, return_inverse=True)
         if len(classes) < 2:
             raise ValueError("the metric needs two classes at least; got 1 class")
-        self.mean_ = X.mean(axis=0, dtype=float)
-        deviation = X.std(axis=0, dtype=float)
+        return self.fit_scatter(Scatter.of_rows(X, index, len(classes)))
+
+    def fit_scatter(self, scatter: Scatter) -> DiscriminantMetric:
+        """Learn the directions from what is known of the rows of two classes at least."""
+        self.n_features_in_ = len(scatter.unit)
+        self.mean_, deviation = scatter.mean(), scatter.deviation()
         # A feature that hardly varies must not be blown up: small next to the typical one.
         self.scale_ = deviation + 0.02 * deviation.mean() + 1e-9
-        by_class = np.argsort(index, kind="stable")
-        counts = np.bincount(index)
-        Z = X[by_class]
-        Z -= self.mean_.astype(Z.dtype)
-        Z /= self.scale_.astype(Z.dtype)
-        means = np.add.reduceat(Z, np.cumsum(counts) - counts, axis=0) / counts[:, None].astype(Z.dtype)
-        # Single precision halves the time of the one large product; the shrinkage hides what it rounds.
-        within = (Z - np.repeat(means, counts, axis=0)).astype(np.float32, copy=False)
-        means = means.astype(float)
-        covariance = (within.T @ within).astype(float) / len(Z)
+        covariance = scatter.within(self.scale_)
         ridge = max(float(np.trace(covariance)) / len(covariance), 1e-9)
         covariance *= 1 - self.shrinkage
         covariance[np.diag_indices_from(covariance)] += self.shrinkage * ridge
+        means = (scatter.class_means() - self.mean_) / self.scale_
         centred = means - means.mean(axis=0)
-        directions = np.linalg.solve(covariance, centred.T)
+        # Single precision halves the time of what is slow; the shrinkage hides what it rounds.
+        factor = cho_factor(covariance, overwrite_a=True, check_finite=False)
+        directions = cho_solve(factor, centred.T.astype(np.float32), check_finite=False).astype(float)
         values, vectors = np.linalg.eigh(centred @ directions)
         keep = values > values.max() * 1e-6
         self.components_ = directions @ vectors[:, keep] / np.sqrt(values[keep])

@@ -6,14 +6,13 @@ both, which doubles the data and makes left and right treated alike.
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 
 import numpy as np
 
 from recognizer.active import PHASES
 from recognizer.body_features import blank
-from recognizer.database import IRRELEVANT, Database
+from recognizer.database import IRRELEVANT, Database, Rows
 
 _OPPOSITE = {"right": "left", "left": "right", "right_side": "left_side", "left_side": "right_side"}
 
@@ -38,27 +37,33 @@ def mirrored(vectors: np.ndarray) -> np.ndarray:
     return vectors[:, source] * sign
 
 
-def with_mirrored(database: Database) -> Database:
-    """Return the database with a mirrored row after all its rows.
+def mirrored_map(maps: np.ndarray) -> np.ndarray:
+    """What ``maps`` (d, c) must be so that a vector gives what its mirrored one gives with ``maps``."""
+    source, sign = mirror_map()
+    out = np.empty_like(maps)
+    out[source] = maps * sign.astype(maps.dtype)[:, None]
+    return out
 
-    The twin of a gesture that the database does not know (``left_arm_up``) is irrelevant motion. A database
-    without mirror labels is returned as it is.
+
+def twins(database: Database) -> Rows:
+    """Return what the mirrored clips of a database show.
+
+    The twin of a gesture that the database does not know (``left_arm_up``) is irrelevant motion, and an irrelevant
+    motion that is such a twin becomes the gesture.
     """
-    if not database.mirror:
-        return database
-    family = dict(zip(database.labels.tolist(), database.families.tolist(), strict=True))
-    twins = np.array([database.mirror.get(label, label) for label in database.labels.tolist()])
-    known = np.isin(twins, list(family))
-    labels = np.where(known, twins, IRRELEVANT)
-    relevant = database.labels != IRRELEVANT
-    return dataclasses.replace(
-        database,
-        features=np.concatenate([database.features, mirrored(database.features)]),
-        labels=np.concatenate([database.labels, labels]),
-        families=np.concatenate([database.families, [family.get(label, IRRELEVANT) for label in labels.tolist()]]),
-        actions=np.concatenate([database.actions, np.where(relevant, twins, database.actions)]),
-        persons=np.tile(database.persons, 2),
-        sources=np.concatenate([database.sources, np.char.add(database.sources, " mirrored")]),
+    rows, mirror = database.rows, database.mirror
+    family = dict(zip(rows.labels.tolist(), rows.families.tolist(), strict=True))
+    gesture = {twin: name for name, twin in mirror.items() if twin not in mirror and name in family}
+    pairs = zip(rows.labels.tolist(), rows.actions.tolist(), strict=True)
+    actions = [gesture.get(a, a) if label == IRRELEVANT else mirror.get(label, label) for label, a in pairs]
+    known = set(family) - {IRRELEVANT}
+    labels = [action if action in known else IRRELEVANT for action in actions]
+    return Rows(
+        np.array(labels),
+        np.array([family.get(label, IRRELEVANT) for label in labels]),
+        np.array(actions),
+        rows.persons,
+        np.char.add(rows.sources, " mirrored"),
     )
 
 

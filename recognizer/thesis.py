@@ -7,6 +7,7 @@ nodding and shaking the head (S11). Large gestures: six key frames, five consecu
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 
 import numpy as np
 
@@ -147,3 +148,8 @@ class ThesisModel:
     def trainable(database: Database) -> Database:
         """The thesis has no class of irrelevant motion; rows of it are left out."""
         return database.take(database.labels != IRRELEVANT)
+
+    @classmethod
+    def learner(cls, database: Database) -> Callable[[np.ndarray], ThesisModel]:
+        """Return what learns models from some rows (a mask or indices) of a database."""
+        return lambda rows: cls().fit(cls.trainable(database.take(rows)))

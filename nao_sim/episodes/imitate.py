@@ -64,7 +64,7 @@ def answer_to(recognition: Recognition, mirror: bool = False) -> Answer:
 
 
 def gesture_of(answer: Answer) -> Gesture | None:
-    """Return what the robot plays for an answer; a gesture that is its own twin, as *stop*, changes the hand."""
+    """Return what the robot plays for an answer; a gesture that is its own twin, as *pointing*, changes the hand."""
     if answer.gesture is None:
         return None
     gesture = library()[answer.gesture]

@@ -46,8 +46,8 @@ def test_all_22_classes_are_there_with_the_vocabulary_s_meaning():
 
 
 def test_listed_by_family_and_number():
-    first = list(GESTURES)[: len(vocabulary())]
-    places = [(["static", "small", "large"].index(GESTURES[name].family), GESTURES[name].number) for name in first]
+    known = [name for name in GESTURES if name in vocabulary()]
+    places = [(["static", "small", "large"].index(GESTURES[name].family), GESTURES[name].number) for name in known]
     assert places == sorted(places)
 
 

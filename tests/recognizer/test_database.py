@@ -12,7 +12,8 @@ from recognizer import Database, DatabaseError, Recognizer
 from recognizer.body_features import METHOD, VERSION, names
 from recognizer.body_model import BodyModel
 from recognizer.evaluation import evaluate
-from recognizer.mirror import mirrored, with_mirrored
+from recognizer.known import KnownRows
+from recognizer.mirror import mirrored, twins
 
 MIRROR = {"bye_right": "bye_left", "bye_left": "bye_right", "right_arm_up": "left_arm_up", "kowtow": "kowtow"}
 FAMILY = {"bye_right": "small", "right_arm_up": "large", "kowtow": "large", "irrelevant": "irrelevant"}
@@ -132,27 +133,48 @@ def test_irrelevant_motion_is_rejected_and_named() -> None:
 def test_mirroring_twice_is_nothing_and_rows_get_their_twins() -> None:
     made = database(2)
     np.testing.assert_allclose(mirrored(mirrored(made.features)), made.features)
-    both = with_mirrored(made)
-    twins = dict(zip(made.labels.tolist(), both.labels[len(made) :].tolist(), strict=True))
-    assert twins == {
+    rows = twins(made)
+    assert dict(zip(made.labels.tolist(), rows.labels.tolist(), strict=True)) == {
         "bye_right": "irrelevant",
         "right_arm_up": "irrelevant",
         "kowtow": "kowtow",
         "irrelevant": "irrelevant",
     }
-    assert "left_arm_up" in both.actions
+    assert {"left_arm_up", "bye_left", "clap"} < set(rows.actions.tolist())
+
+
+def test_an_irrelevant_motion_that_is_a_twin_becomes_the_gesture_in_the_mirror() -> None:
+    made = database(2)
+    rows = twins(dataclasses.replace(made, actions=np.where(made.labels == "irrelevant", "left_arm_up", made.actions)))
+    turned = made.labels == "irrelevant"
+    assert set(rows.labels[turned].tolist()) == {"right_arm_up"}
+    assert set(rows.families[turned].tolist()) == {"large"}
+    assert set(rows.actions[made.labels == "right_arm_up"].tolist()) == {"left_arm_up"}
+
+
+def test_rounding_twice_is_rounding_once_and_what_is_read_back(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    made = database(30, takes=8)
+    outliers = made.features.copy()
+    outliers[rng.integers(0, len(made), made.features.shape[1]), np.arange(made.features.shape[1])] = 99
+    made = dataclasses.replace(made, features=outliers, bits=4)
+    once = made.rounded()
+    np.testing.assert_allclose(once.rounded().features, once.features, rtol=1e-5, atol=1e-5)
+    once.save(tmp_path / "d.parquet")
+    np.testing.assert_allclose(Database.load(tmp_path / "d.parquet").features, once.features, rtol=1e-5, atol=1e-5)
+    assert np.abs(once.features).max() < 10  # 16 steps are not spent on one value of 960
 
 
 def test_evaluation_never_shows_a_person_to_its_judge(monkeypatch: pytest.MonkeyPatch) -> None:
     made = database(4)
     fitted: list[set[str]] = []
-    original = BodyModel.fit
+    original = BodyModel._learn
 
-    def spy(self: BodyModel, known: Database) -> BodyModel:
-        fitted.append(set(known.persons.tolist()))
-        return original(self, known)
+    def spy(self: BodyModel, known: KnownRows, used: np.ndarray) -> BodyModel:
+        fitted.append(set(known.database.persons[used].tolist()))
+        return original(self, known, used)
 
-    monkeypatch.setattr(BodyModel, "fit", spy)
+    monkeypatch.setattr(BodyModel, "_learn", spy)
     result = evaluate(made)
     assert [len(persons) for persons in fitted] == [3, 3, 3, 3]
     assert result.score() == 1.0
