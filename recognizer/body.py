@@ -81,55 +81,72 @@ class BodyFinder:
         more like a person than the rest of the picture.
         """
         assert self._last is not None
-        grey = self._last.grey.shape
-        scale = self._last.small.shape[1] / grey[1]
+        height, width = self._last.grey.shape
+        scale = self._last.small.shape[1] / width
+        bodies = [body for _, found, _ in self._found for body in found]
+        if not bodies:
+            return [], np.zeros((0, 2 * len(NAMES)))
+        numbers = np.concatenate([np.full(len(found), number) for number, found, _ in self._found])
+        places = np.array([(b.x, b.y, b.head, b.score) for b in bodies]).reshape(-1, 4)
+        again = np.zeros(len(bodies))
+        same = _same(places, places)
+        for number, _, _ in self._found:  # seen in other samples, however often in each
+            there = numbers == number
+            again[~there] += same[np.ix_(~there, there)].any(axis=1)
         whole = cv2.integral(np.mean(self._moved, axis=0).astype(np.float32))
-        bodies, rows = [], []
-        for order, (number, found, closer) in enumerate(self._found):
+        now = np.empty((len(bodies), 5))
+        for number, _, _ in self._found:
             near = np.mean(self._moved[max(0, number - 3) : number + 4], axis=0).astype(np.float32)
-            now = cv2.integral(near)
-            for rank, body in enumerate(found):
-                again = sum(any(_same(body, b) for b in others) for n, others, _ in self._found if n != number)
-                known = [body.score, rank, *_motion(whole, body, scale), *_motion(now, body, scale)]
-                rows.append(
-                    [
-                        *known,
-                        math.log(body.head / grey[0]),
-                        again / max(1, len(self._found) - 1),
-                        order == 0,
-                        closer[rank],
-                    ]
-                )
-                bodies.append(body)
-        table = np.array(rows, float).reshape(-1, len(NAMES))
+            there = numbers == number
+            now[there] = _motion(cv2.integral(near), places[there], scale)
+        table = np.column_stack(
+            [
+                places[:, 3],
+                np.concatenate([np.arange(len(found)) for _, found, _ in self._found]),
+                _motion(whole, places, scale),
+                now,
+                np.log(places[:, 2] / height),
+                again / max(1, len(self._found) - 1),
+                numbers == self._found[0][0],
+                np.concatenate([closer for _, _, closer in self._found]),
+            ]
+        )
         return bodies, np.hstack([table, table - table.max(axis=0)])
 
 
-def _same(a: Body, b: Body) -> bool:
-    return math.hypot(a.x - b.x, a.y - b.y) < 0.5 * b.head and abs(math.log(a.head / b.head)) < 0.3
+def _same(some: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Which candidates x, y, head … (n, 4) are at the place and of the size of which others (m, 4), (n, m) bool."""
+    x, y, head = (some[:, None, i] for i in range(3))
+    near = np.hypot(x - others[:, 0], y - others[:, 1]) < 0.5 * others[:, 2]
+    alike: np.ndarray = near & (np.abs(np.log(head / others[:, 2])) < 0.3)
+    return alike
 
 
 def _mean_body(candidates: list[Body], scores: np.ndarray, best: int) -> Body:
     """Average the chosen candidate with its sightings on other samples: levels of the pyramid are coarse."""
-    same = [b for b in candidates if _same(b, candidates[best])]
-    x, y = float(np.mean([b.x for b in same])), float(np.mean([b.y for b in same]))
-    return Body(x, y, float(np.exp(np.mean([math.log(b.head) for b in same]))), float(scores[best]))
+    places = np.array([(b.x, b.y, b.head) for b in candidates])
+    x, y, log_head = np.column_stack([places[:, :2], np.log(places[:, 2])])[
+        _same(places, places[best : best + 1])[:, 0]
+    ].mean(axis=0)
+    return Body(float(x), float(y), math.exp(log_head), float(scores[best]))
 
 
-def _motion(integral: np.ndarray, body: Body, scale: float) -> list[float]:
-    """Share and density of the motion within arm's reach of a candidate, on its body, and on its head."""
-    x, y, h = body.x * scale, body.y * scale, body.head * scale
+def _motion(integral: np.ndarray, places: np.ndarray, scale: float) -> np.ndarray:
+    """Share and density of the motion within arm's reach of candidates (n, 3 or more), on body, and on head, (n, 5)."""
+    x, y, h = (places[:, i] * scale for i in range(3))
     total = float(integral[-1, -1]) + 1.0
     reach, _ = _box(integral, x - 3.8 * h, y - 3 * h, x + 3.8 * h, y + 5 * h)
     trunk, trunk_area = _box(integral, x - 2 * h, y - h, x + 2 * h, y + 3.5 * h)
     head, head_area = _box(integral, x - 0.5 * h, y - 0.6 * h, x + 0.5 * h, y + 0.6 * h)
-    return [reach / total, trunk / total, trunk / trunk_area, head / total, head / head_area]
+    return np.column_stack([reach / total, trunk / total, trunk / trunk_area, head / total, head / head_area])
 
 
-def _box(integral: np.ndarray, x0: float, y0: float, x1: float, y1: float) -> tuple[float, float]:
-    """Sum and area [px] of a box of an integral image, cut at the border."""
+def _box(
+    integral: np.ndarray, x0: np.ndarray, y0: np.ndarray, x1: np.ndarray, y1: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Sums and areas [px] of boxes of an integral image, cut at the border."""
     height, width = integral.shape[0] - 1, integral.shape[1] - 1
-    left, right = (min(width, max(0, round(v))) for v in (x0, x1))
-    top, bottom = (min(height, max(0, round(v))) for v in (y0, y1))
+    left, right = (np.round(v).clip(0, width).astype(int) for v in (x0, x1))
+    top, bottom = (np.round(v).clip(0, height).astype(int) for v in (y0, y1))
     total = integral[bottom, right] - integral[top, right] - integral[bottom, left] + integral[top, left]
-    return float(total), max(1.0, float((right - left) * (bottom - top)))
+    return total, np.maximum(1.0, (right - left) * (bottom - top))
