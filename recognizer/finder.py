@@ -62,7 +62,7 @@ def cells(grey: np.ndarray) -> np.ndarray:
     np.minimum(magnitude, 3.0, out=magnitude)
     angle = cv2.phase(gx, gy)
     np.multiply(angle, BINS / np.pi, out=angle)
-    angle -= BINS * (angle >= BINS).astype(np.float32)
+    np.subtract(angle, BINS * (angle >= BINS).astype(np.float32), out=angle)
     rows, columns = (side // CELL for side in grey.shape)
     whole = slice(rows * CELL), slice(columns * CELL)
     planes = np.empty((CHANNELS, rows * CELL, columns * CELL), np.float32)
