@@ -103,8 +103,9 @@ def _rhythm(active: Active) -> Iterator[Item]:
 def _paths(active: Active) -> Iterator[Item]:
     """Centre, spread and amount of motion in each phase: everywhere, on each side of the body's axis."""
     x, y = GRID_X.ravel(), GRID_Y.ravel()
-    for name, side in (("all", np.ones_like(GRID_X)), ("right", GRID_X < 0), ("left", GRID_X >= 0)):
-        weight = active.phases @ (active.speed * side).reshape(len(active.speed), -1)
+    speed = active.phases @ active.speed.reshape(len(active.speed), -1)
+    for name, side in (("all", np.ones_like(x)), ("right", x < 0), ("left", x >= 0)):
+        weight = speed * side
         total = weight.sum(axis=1) + 2.0
         cx, cy = weight @ x / total, weight @ y / total
         sx = np.sqrt(np.maximum(weight @ (x * x) / total - cx * cx, 0))
@@ -132,7 +133,8 @@ def _head(active: Active) -> Iterator[Item]:
     face = ((HEAD_X / 0.38) ** 2 + (HEAD_Y / 0.5) ** 2 < 1).astype(np.float32).ravel()
     flat = part.reshape(len(part), 2, -1)
     mean = flat @ (face / face.sum())
-    amount = (np.abs(flat) @ (face / face.sum()) * seconds[:, None]).sum(axis=0)
+    moved = np.tensordot(seconds, np.abs(part), 1)
+    amount = moved.reshape(2, -1) @ (face / face.sum())
     # Who sways takes head and chest along; a nod is the head's own.
     own = mean - active.torso[active.first : active.last]
     described = _signals(4 * np.column_stack([mean, own]), active.period)
@@ -144,8 +146,7 @@ def _head(active: Active) -> Iterator[Item]:
     )
     yield "head_amount", np.log(sizes)
     yield "head_axis", np.log(sizes[1::2] / sizes[::2])
-    cells = np.abs(part).reshape(len(part), 2, 3, 14, 3, 14).mean(axis=(3, 5))
-    cells = np.einsum("t,tdyx->dyx", seconds, cells)
+    cells = moved.reshape(2, 3, 14, 3, 14).mean(axis=(2, 4))
     yield "head_cells", np.sqrt(cells / (cells.sum() + 0.1))
 
 
@@ -159,14 +160,30 @@ def _whole_image(regions: list[MovingRegions], body: Body, size: tuple[int, int]
         quarter = max(1, len(rows) // 4)
         first, last = slice(0, quarter), slice(-quarter, None)
         dx, dy = (np.average(c[last], weights=area[last]) - np.average(c[first], weights=area[first]) for c in (x, y))
-        wide, tall = np.diff(np.quantile(rows[:, :2], (0.05, 0.95), axis=0), axis=0)[0]
-        steady = float(np.corrcoef(x, np.arange(len(x)))[0, 1]) if x.std() > 1e-6 else 0.0
+        wide, tall = _spread(x), _spread(y)
+        steady = _correlation(x, np.arange(len(x)))
         in_heads = [np.sign(dx) * min(5, abs(dx) / head / 2), min(5, wide / head / 2), min(5, tall / head / aspect / 2)]
         net = float((u * area).sum() / ((np.abs(u) * area).sum() + 0.01))
         mean_u, mean_v = np.average(u, weights=area), np.average(v, weights=area)
         covered = min(4, area.mean() / (head * head * aspect) / 4)
         out = np.array([dx, dy, wide, tall, *in_heads, math.sqrt(area.mean()), mean_u, mean_v, net, steady, covered])
     yield "image_path", out
+
+
+def _spread(values: np.ndarray) -> float:
+    """Between the 5 % and the 95 % quantile of two values or more; NumPy's own takes longer than all around it."""
+    ordered = np.sort(values)
+    places = np.array([0.05, 0.95]) * (len(values) - 1)
+    below = places.astype(int)
+    low, high = ordered[below] + (places - below) * (ordered[np.minimum(below + 1, len(values) - 1)] - ordered[below])
+    return float(high - low)
+
+
+def _correlation(a: np.ndarray, b: np.ndarray) -> float:
+    """Pearson's, of two values or more; 0 where ``a`` does not vary."""
+    a, b = a - a.mean(), b - b.mean()
+    size = math.sqrt(float(a @ a) * float(b @ b))
+    return float(a @ b) / size if a @ a > 1e-12 * len(a) else 0.0
 
 
 def vector(items: list[Item]) -> np.ndarray:

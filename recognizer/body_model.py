@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -89,10 +90,13 @@ class BodyModel:
         projected = self.project(features)
         if twins:
             projected = np.concatenate([projected, features @ mirrored_map(self._map) - self._origin])
-        self._projected = projected
-        self._squares = np.einsum("nc,nc->n", projected, projected)
-        self._labels, self._targets = np.unique(self.rows.labels, return_inverse=True)
-        self._rows_of = [np.flatnonzero(self._targets == target) for target in range(len(self._labels))]
+        # Rows of one label stand together, so that each label is a slice.
+        order = np.argsort(self.rows.labels, kind="stable")
+        self.rows = self.rows.take(order)
+        self._projected = projected[order]
+        self._squares = np.einsum("nc,nc->n", self._projected, self._projected)
+        self._labels, first, counts = np.unique(self.rows.labels, return_index=True, return_counts=True)
+        self._rows_of = [slice(start, start + count) for start, count in zip(first, counts, strict=True)]
 
     def project(self, vectors: np.ndarray) -> np.ndarray:
         """Bring feature vectors (n, d) into the metric, (n, c) float32."""
@@ -151,9 +155,12 @@ class BodyModel:
     def _distances(self, vectors: np.ndarray) -> np.ndarray:
         """Distance of feature vectors (n, d) to every row, (n, n_rows)."""
         places = self.project(vectors)
-        squares = self._squares + np.einsum("nc,nc->n", places, places)[:, None] - 2 * (places @ self._projected.T)
-        distances: np.ndarray = np.sqrt(np.maximum(squares, 0))
-        return distances
+        squares = places @ self._projected.T
+        squares *= -2
+        squares += self._squares
+        squares += np.einsum("nc,nc->n", places, places)[:, None]
+        np.maximum(squares, 0, out=squares)
+        return np.sqrt(squares, out=squares)
 
     def _class_distances(self, distances: np.ndarray, k: int) -> np.ndarray:
         """Mean distance of the k and the 3k nearest rows of each label: (n, n_rows) to (n, 2, n_labels)."""
@@ -162,7 +169,8 @@ class BodyModel:
             own = distances[:, rows]
             wide = min(WIDER * k, own.shape[1])
             nearest = np.sort(np.partition(own, wide - 1, axis=1)[:, :wide], axis=1)
-            out[:, :, target] = np.column_stack([nearest[:, :k].mean(axis=1), nearest.mean(axis=1)])
+            out[:, 0, target] = nearest[:, :k].sum(axis=1) / min(k, wide)
+            out[:, 1, target] = nearest.sum(axis=1) / wide
         return out
 
     def _winner(self, distances: np.ndarray, allowed: np.ndarray) -> tuple[int, float, np.ndarray]:
@@ -191,25 +199,33 @@ class BodyModel:
         # Without irrelevant motion in the database the plain distance has to do.
         known = IRRELEVANT in self._labels
         reason = self._reason(name, odds, far, distances) if odds > self.limit_ or far > self.farthest_ else ""
-        competing = np.where((allowed | (self._labels == IRRELEVANT))[self._targets], distances, np.inf)
-        near = np.argpartition(competing, min(SHOWN, len(competing)) - 1)[:SHOWN]
+        shown = self._nearest(distances, allowed | (self._labels == IRRELEVANT))
         return Decision(
             None if reason else name,
             name,
-            str(self.rows.families[self._rows_of[winner][0]]),
+            str(self.rows.families[self._rows_of[winner].start]),
             bool(reason),
             reason,
             _share(odds) if known else far,
             _share(self.limit_) if known else np.inf,
             {str(n): float(share) for n, share in zip(self._labels, shares, strict=True) if share > 0},
-            tuple(neighbour(self.rows, int(row), float(distances[row])) for row in near[np.argsort(competing[near])]),
+            tuple(neighbour(self.rows, row, float(distances[row])) for row in shown),
         )
+
+    def _nearest(self, distances: np.ndarray, labels: np.ndarray) -> list[int]:
+        """Return the nearest rows of the labels of a mask, nearest first."""
+        competing = distances.copy()
+        for rows in itertools.compress(self._rows_of, ~labels):
+            competing[rows] = np.inf
+        near = np.argpartition(competing, min(SHOWN, len(competing)) - 1)[:SHOWN]
+        nearest: list[int] = near[np.argsort(competing[near])].tolist()
+        return nearest
 
     def _reason(self, name: str, odds: float, far: float, distances: np.ndarray) -> str:
         if odds <= self.limit_:
             return f"unlike anything known: nearest is {name} at distance {far:.3g}, beyond {self.farthest_:.3g}"
         irrelevant = self._rows_of[int(np.searchsorted(self._labels, IRRELEVANT))]
-        action = self.rows.actions[irrelevant[np.argmin(distances[irrelevant])]]
+        action = self.rows.actions[irrelevant.start + int(np.argmin(distances[irrelevant]))]
         return f"irrelevant motion ({action}) is {odds:.3g} times as likely as {name}; the limit is {self.limit_:.3g}"
 
 

@@ -17,6 +17,7 @@ CHANGED = 18.0  # even-contrast levels between two pictures that count as change
 HELD = 14.0  # the same between means of several pictures, which are less noisy
 HOLD_STEPS = 5  # half a second
 DIRECTIONS = 4  # of edges, without sign
+_DIRECTIONS = np.arange(DIRECTIONS, dtype=np.float32)[:, None, None]
 MOMENTS = (("quarter", 0.25), ("middle", 0.5), ("late", 0.75))  # of the active part
 Item = tuple[str, np.ndarray]
 
@@ -27,7 +28,7 @@ def pose_features(active: Active) -> Iterator[Item]:
     rest = slice(max(0, active.first - 2), active.first + 1)
     standing = active.pictures[rest].mean(axis=0)
     held = _held_longest(active, standing)
-    yield "changed_hold", cell_means((np.abs(active.pictures[held].mean(axis=0) - standing) > HELD).astype(float), 2)
+    yield "changed_hold", cell_means(np.abs(active.pictures[held].mean(axis=0) - standing) > HELD, 2)
     before = levelled(active.poses[rest].mean(axis=0, dtype=np.float32))
     yield "edges_hold", new_edges(before, levelled(active.poses[held].mean(axis=0, dtype=np.float32)))
     for name, share in MOMENTS:
@@ -40,15 +41,10 @@ def _changes(active: Active) -> Iterator[Item]:
     """Share of each cell that changed between moments of the active part: the body's pose, held or not."""
     a, b = active.first, active.last - 1
     middle, early, late = (a + b) // 2, (3 * a + b) // 4, (a + 3 * b) // 4
-    for name, i, j in (
-        ("half", a, middle),
-        ("end", a, b),
-        ("second", middle, b),
-        ("early", a, early),
-        ("late", a, late),
-    ):
-        changed = np.abs(active.pictures[i] - active.pictures[j]) > CHANGED
-        yield f"changed_{name}", cell_means(changed.astype(np.float32))
+    moments = {"half": (a, middle), "end": (a, b), "second": (middle, b), "early": (a, early), "late": (a, late)}
+    first, second = (active.pictures[list(places)] for places in zip(*moments.values(), strict=True))
+    cells = cell_means(np.abs(first - second) > CHANGED)
+    yield from zip((f"changed_{name}" for name in moments), cells, strict=True)
 
 
 def _held_longest(active: Active, standing: np.ndarray) -> slice:
@@ -79,21 +75,23 @@ def new_edges(before: np.ndarray, after: np.ndarray) -> np.ndarray:
         (4, 11, 14) mean strength of edges whose gradient points right, down-right, down and down-left (or the
         opposite way), in cells of half a head height.
     """
-    change = cv2.GaussianBlur(np.abs(before - after), (0, 0), POSE.pixels / 8)
+    change = cv2.GaussianBlur(cv2.absdiff(before, after), (0, 0), POSE.pixels / 8)
     gx, gy = cv2.Sobel(after, cv2.CV_32F, 1, 0, ksize=3), cv2.Sobel(after, cv2.CV_32F, 0, 1, ksize=3)
     strength, angle = cv2.cartToPolar(gx, gy)
-    strength *= np.minimum(change / (2 * HELD), 1.0) / 80
+    strength *= np.minimum(change * (0.5 / HELD), 1.0) * (1 / 80)
     angle *= DIRECTIONS / np.pi
+    angle -= DIRECTIONS * (angle >= DIRECTIONS).astype(np.float32)  # half way round is the same direction
+    apart = np.abs(angle - _DIRECTIONS)
+    np.minimum(apart[0], DIRECTIONS - apart[0], out=apart[0])  # only the first one's neighbour lies beyond the end
+    np.subtract(1, apart, out=apart)
+    np.maximum(apart, 0, out=apart)
+    apart *= strength
+    # One above the other they are one picture: cells do not reach across.
     height, width = before.shape
-    size = (2 * width // POSE.pixels, 2 * height // POSE.pixels)
-    cells = []
-    for direction in range(DIRECTIONS):
-        apart = np.abs(angle - direction)
-        np.minimum(apart, 2 * DIRECTIONS - apart, out=apart)  # all the way round is none …
-        np.minimum(apart, np.abs(DIRECTIONS - apart), out=apart)  # … and so is half way
-        share = np.maximum(1 - apart, 0) * strength
-        cells.append(cv2.resize(share, size, interpolation=cv2.INTER_AREA))
-    return np.stack(cells)
+    rows, columns = 2 * height // POSE.pixels, 2 * width // POSE.pixels
+    stacked = apart.reshape(-1, width)
+    cells = cv2.resize(stacked, (columns, DIRECTIONS * rows), interpolation=cv2.INTER_AREA)
+    return cells.reshape(DIRECTIONS, rows, columns)
 
 
 def _coarser(cells: np.ndarray) -> np.ndarray:

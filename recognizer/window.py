@@ -118,7 +118,10 @@ def cell_means(maps: np.ndarray, per_head: int = 1) -> np.ndarray:
     """Mean over each cell of maps (…, 64, 80): (…, 8, 10), or finer with several cells ``per_head`` height."""
     *lead, height, width = maps.shape
     rows, columns = ROWS * per_head, COLUMNS * per_head
-    return maps.reshape(*lead, rows, height // rows, columns, width // columns).mean(axis=(-3, -1))
+    # One above the other they are one picture: cells do not reach across.
+    stacked = np.asarray(maps, np.float32).reshape(-1, width)
+    size = (columns, len(stacked) * rows // height)
+    return cv2.resize(stacked, size, interpolation=cv2.INTER_AREA).reshape(*lead, rows, columns)
 
 
 def cut_window(grey: np.ndarray, body: Body, view: View) -> np.ndarray:
