@@ -143,7 +143,7 @@ class Database:
         temporary = target.with_name(f".{target.name}.{os.getpid()}")
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
-            pq.write_table(table, temporary, compression="zstd", compression_level=19, use_dictionary=list(_TEXT))
+            pq.write_table(table, temporary, compression="zstd", compression_level=9, use_dictionary=list(_TEXT))
             os.replace(temporary, target)
         except OSError as error:
             temporary.unlink(missing_ok=True)
