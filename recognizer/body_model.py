@@ -81,14 +81,14 @@ class BodyModel:
         self._measure(*known.metric(used, self.shrinkage), features, bool(known.database.mirror))
 
     def _measure(
-        self, mean: np.ndarray, scale: np.ndarray, components: np.ndarray, features: np.ndarray, twins: bool
+        self, mean: np.ndarray, scale: np.ndarray, components: np.ndarray, features: np.ndarray, mirror: bool
     ) -> None:
         self._mean, self._scale, self._components = mean, scale, components
         # In single precision and one product: a database is projected in a tenth of a second.
         self._map = (components / scale[:, None]).astype(np.float32)
         self._origin = (mean @ (components / scale[:, None])).astype(np.float32)
         projected = self.project(features)
-        if twins:
+        if mirror:
             projected = np.concatenate([projected, features @ mirrored_map(self._map) - self._origin])
         # Rows of one label stand together, so that each label is a slice.
         order = np.argsort(self.rows.labels, kind="stable")
