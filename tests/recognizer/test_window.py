@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from recognizer.finder import Body
-from recognizer.window import POSE, WHOLE, View, cut_window
+from recognizer.window import POSE, WHOLE, View, cell_means, cut_window
 
 WIDTH, HEIGHT = 1200, 900
 SCALE = 5.0  # pixels of the picture to one of the window: shrunk first
@@ -27,3 +27,12 @@ def test_a_window_shows_its_place_even_at_the_border(view: View, at: tuple[float
         # A pixel of the window is 1 grey level; the parts beyond the border repeat it.
         assert np.abs(found - expected).max() < 1.6
         assert abs(float((found - expected).mean())) < 0.75
+
+
+@pytest.mark.parametrize("per_head", [1, 2])
+def test_cells_are_means_of_their_pixels(per_head: int) -> None:
+    maps = np.random.default_rng(0).normal(size=(3, 2, 64, 80)).astype(np.float32)
+    side = 8 // per_head
+    plain = maps.reshape(3, 2, 64 // side, side, 80 // side, side).mean(axis=(3, 5))
+    np.testing.assert_allclose(cell_means(maps, per_head), plain, atol=1e-6)
+    np.testing.assert_allclose(cell_means(maps[0, 0] > 0, per_head).mean(), (maps[0, 0] > 0).mean(), atol=1e-6)
