@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import cv2
 import numpy as np
 
@@ -87,7 +85,7 @@ class BodyFinder:
         if not bodies:
             return [], np.zeros((0, 2 * len(NAMES)))
         numbers = np.concatenate([np.full(len(found), number) for number, found, _ in self._found])
-        places = np.array([(b.x, b.y, b.head, b.score) for b in bodies]).reshape(-1, 4)
+        places = np.array([(b.x, b.y, b.head, b.score) for b in bodies])
         again = np.zeros(len(bodies))
         same = _same(places, places)
         for number, _, _ in self._found:  # seen in other samples, however often in each
@@ -125,10 +123,8 @@ def _same(some: np.ndarray, others: np.ndarray) -> np.ndarray:
 def _mean_body(candidates: list[Body], scores: np.ndarray, best: int) -> Body:
     """Average the chosen candidate with its sightings on other samples: levels of the pyramid are coarse."""
     places = np.array([(b.x, b.y, b.head) for b in candidates])
-    x, y, log_head = np.column_stack([places[:, :2], np.log(places[:, 2])])[
-        _same(places, places[best : best + 1])[:, 0]
-    ].mean(axis=0)
-    return Body(float(x), float(y), math.exp(log_head), float(scores[best]))
+    x, y, head = places[_same(places, places[best : best + 1])[:, 0]].T
+    return Body(float(x.mean()), float(y.mean()), float(np.exp(np.log(head).mean())), float(scores[best]))
 
 
 def _motion(integral: np.ndarray, places: np.ndarray, scale: float) -> np.ndarray:

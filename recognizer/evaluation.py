@@ -69,6 +69,19 @@ class Evaluation:
             out["irrelevant rejected"] = float(np.mean(self.rejected[~known]))
         return out
 
+    def rejections(self) -> dict[str, tuple[int, float, str]]:
+        """For each action: its clips, the share rejected, and what those not rejected are mostly taken for.
+
+        Most clips not rejected first; "" where all are rejected.
+        """
+        out = {}
+        for action in np.unique(self.actions).tolist():
+            clips = self.actions == action
+            taken_for, counts = np.unique(self.nearest[clips & ~self.rejected], return_counts=True)
+            mostly = str(taken_for[np.argmax(counts)]) if len(counts) else ""
+            out[action] = (int(clips.sum()), float(self.rejected[clips].mean()), mostly)
+        return dict(sorted(out.items(), key=lambda item: -item[1][0] * (1 - item[1][1])))
+
     def confusion(self, family: str) -> tuple[list[str], np.ndarray]:
         """Return the labels of a family and the counts, rows true, columns answered (others in the last)."""
         labels = sorted(set(self.labels[self.families == family].tolist()))

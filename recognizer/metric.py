@@ -55,8 +55,10 @@ class DiscriminantMetric(ClassNamePrefixFeaturesOutMixin, TransformerMixin, Base
         self.scale_ = deviation + 0.02 * deviation.mean() + 1e-9
         covariance = scatter.within(self.scale_)
         ridge = max(float(np.trace(covariance)) / len(covariance), 1e-9)
-        covariance *= 1 - self.shrinkage
-        covariance[np.diag_indices_from(covariance)] += self.shrinkage * ridge
+        # Less of the identity than single precision rounds away could not be factored.
+        shrinkage = max(self.shrinkage, len(covariance) * float(np.finfo(np.float32).eps))
+        covariance *= 1 - shrinkage
+        covariance[np.diag_indices_from(covariance)] += shrinkage * ridge
         means = (scatter.class_means() - self.mean_) / self.scale_
         centred = means - means.mean(axis=0)
         # Single precision halves the time of what is slow; the shrinkage hides what it rounds.

@@ -54,10 +54,16 @@ def twins(database: Database) -> Rows:
     rows, mirror = database.rows, database.mirror
     family = dict(zip(rows.labels.tolist(), rows.families.tolist(), strict=True))
     gesture = {twin: name for name, twin in mirror.items() if twin not in mirror and name in family}
-    pairs = zip(rows.labels.tolist(), rows.actions.tolist(), strict=True)
-    actions = [gesture.get(a, a) if label == IRRELEVANT else mirror.get(label, label) for label, a in pairs]
-    known = set(family) - {IRRELEVANT}
-    labels = [action if action in known else IRRELEVANT for action in actions]
+    labels, actions = [], []
+    for label, action in zip(rows.labels.tolist(), rows.actions.tolist(), strict=True):
+        if label == IRRELEVANT:
+            # An action of a gesture's own name was called irrelevant by who labelled it, and stays so.
+            labels.append(gesture.get(action, IRRELEVANT))
+            actions.append(gesture.get(action, action))
+        else:
+            twin = mirror.get(label, label)
+            labels.append(twin if twin in family else IRRELEVANT)
+            actions.append(twin)
     return Rows(
         np.array(labels),
         np.array([family.get(label, IRRELEVANT) for label in labels]),

@@ -9,6 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
+PASSING = 8  # irrelevant motions shown
+
 
 def evaluate(
     dataset: Annotated[Path, typer.Argument(help="data set folder, or a database (.parquet) made by train")],
@@ -37,7 +39,8 @@ def evaluate(
         for path in draw_figures(evaluations, figures):
             console.print(f"wrote {path}")
     if as_json:
-        typer.echo(json.dumps({e.method: {**e.summary(), "by_k": e.by_k} for e in evaluations}))
+        rows = {e.method: {**e.summary(), "by_k": e.by_k, "rejections": e.rejections()} for e in evaluations}
+        typer.echo(json.dumps(rows))
     else:
         _print(console, evaluations)
 
@@ -67,3 +70,11 @@ def _print(console: Any, evaluations: list[Any]) -> None:
     for row in evaluations[0].summary():
         table.add_row(row, *(f"{100 * e.summary()[row]:.1f} %" for e in evaluations))
     console.print(table)
+    for evaluation in evaluations:
+        irrelevant = set(evaluation.actions[~evaluation.gestures].tolist())
+        passing = [(name, *row) for name, row in evaluation.rejections().items() if name in irrelevant and row[1] < 1]
+        if passing:
+            worst = Table(f"irrelevant, passing most ({evaluation.method})", "clips", "rejected", "taken for")
+            for name, clips, rejected, taken_for in passing[:PASSING]:
+                worst.add_row(name, str(clips), f"{100 * rejected:.0f} %", taken_for)
+            console.print(worst)

@@ -54,10 +54,11 @@ def test_a_mirror_answers_with_the_other_hand(wave: tuple[Episode, Nao]) -> None
     assert answer_to(recognition, mirror=True).gesture == "bye_left"
 
 
-def test_a_mirror_answers_stop_with_the_left_hand(wave: tuple[Episode, Nao]) -> None:
-    stop = dataclasses.replace(wave[0].recognition, label="stop")
+@pytest.mark.parametrize("label", ["stop", "pointing"])  # pointing is its own twin, stop is not
+def test_a_mirror_answers_with_the_left_hand(wave: tuple[Episode, Nao], label: str) -> None:
+    seen = dataclasses.replace(wave[0].recognition, label=label)
     for mirror, moving, still in ((False, "RElbowRoll", "LElbowRoll"), (True, "LElbowRoll", "RElbowRoll")):
-        gesture = gesture_of(answer_to(stop, mirror))
+        gesture = gesture_of(answer_to(seen, mirror))
         assert gesture is not None
         assert moving in gesture.joints
         assert still not in gesture.joints

@@ -152,6 +152,12 @@ def test_an_irrelevant_motion_that_is_a_twin_becomes_the_gesture_in_the_mirror()
     assert set(rows.actions[made.labels == "right_arm_up"].tolist()) == {"left_arm_up"}
 
 
+def test_an_irrelevant_motion_named_like_a_gesture_stays_irrelevant_in_the_mirror() -> None:
+    made = database(2)
+    rows = twins(dataclasses.replace(made, actions=np.where(made.labels == "irrelevant", "kowtow", made.actions)))
+    assert set(rows.labels[made.labels == "irrelevant"].tolist()) == {"irrelevant"}
+
+
 def test_rounding_twice_is_rounding_once_and_what_is_read_back(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     made = database(30, takes=8)
@@ -179,6 +185,12 @@ def test_evaluation_never_shows_a_person_to_its_judge(monkeypatch: pytest.Monkey
     assert [len(persons) for persons in fitted] == [3, 3, 3, 3]
     assert result.score() == 1.0
     assert result.summary()["routing"] == 1.0
+    assert result.rejections()["clap"][:2] == (8, 1.0)
+    assert result.rejections()["kowtow"] == (
+        8,
+        pytest.approx(result.rejected[made.labels == "kowtow"].mean()),
+        "kowtow",
+    )
     labels, counts = result.confusion("large")
     assert labels == ["kowtow", "right_arm_up"]
     assert counts.trace() == 16

@@ -70,6 +70,14 @@ def test_leaving_rows_out_is_learning_without_them() -> None:
     np.testing.assert_allclose(apart[0], apart[1], rtol=0.02, atol=0.02)
 
 
+def test_hardly_any_shrinkage_and_fewer_rows_than_features() -> None:
+    rng = np.random.default_rng(0)
+    index = np.arange(50) % 4
+    values = rng.normal(size=(50, 20)) @ rng.normal(size=(20, 500)) + index[:, None] * rng.normal(size=500)
+    places = DiscriminantMetric(1e-6).fit(values.astype(np.float32), index).transform(values)
+    assert np.isfinite(places).all()
+
+
 def test_a_learner_answers_as_a_model_of_the_rows_alone() -> None:
     made = database(4)
     used = made.persons != "p3"
