@@ -23,6 +23,9 @@ def film(
         typer.Option(help="Only these classes, separated by commas or each with its own --classes; else all dynamic."),
     ] = None,
     irrelevant: Annotated[int, typer.Option(help="Clips of motions that are no gesture.")] = 0,
+    restless: Annotated[
+        float | None, typer.Option(help="Share of clips in which people cannot keep still; one in ten if not given.")
+    ] = None,
     processes: Annotated[int, typer.Option(help="How many render at once; 0 for one a core.")] = 0,
     samples: Annotated[bool, typer.Option("--samples", help="Film the sample clips of assets/clips instead.")] = False,
 ) -> None:
@@ -32,7 +35,7 @@ def film(
         typer.echo(f"{len(names)} samples in {out}")
         return
     labels = [label.strip() for names in classes or () for label in names.split(",") if label.strip()]
-    jobs = dataset.plan(persons, takes, seed, labels or None, irrelevant)
+    jobs = dataset.plan(persons, takes, seed, labels or None, irrelevant, restless)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     frames = 0
     with Progress(*columns) as progress:
@@ -44,6 +47,13 @@ def film(
             progress.advance(task)
 
         dataset.film(jobs, out, processes or os.cpu_count() or 1, done)
-    command = {"persons": persons, "takes": takes, "seed": seed, "classes": labels or None, "irrelevant": irrelevant}
+    command = {
+        "persons": persons,
+        "takes": takes,
+        "seed": seed,
+        "classes": labels or None,
+        "irrelevant": irrelevant,
+        "restless": restless,
+    }
     dataset.write_card(out, command, jobs)
     typer.echo(f"{len(jobs)} clips in {out}, {frames} frames rendered now")

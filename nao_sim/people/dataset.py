@@ -29,13 +29,18 @@ CHILDREN = 1 / 3
 
 @dataclass(frozen=True)
 class Job:
-    """One clip of a data set: enough to draw its shot and to name its file."""
+    """One clip of a data set: enough to draw its shot and to name its file.
+
+    Attributes:
+        restless: share of clips in which people cannot keep still; as in the motion file when None.
+    """
 
     seed: int
     label: str
     person: int
     persons: int
     take: int
+    restless: float | None = None
 
     @property
     def file(self) -> str:
@@ -49,7 +54,7 @@ class Job:
 
     def shot(self) -> Shot:
         """Draw the shot of a clip."""
-        return draw_shot(self.seed, self.label, self._performer(), self.take)
+        return draw_shot(self.seed, self.label, self._performer(), self.take, restless=self.restless)
 
     def photo(self) -> Photo:
         """Draw the photo of a static posture."""
@@ -59,10 +64,17 @@ class Job:
         return draw_cast(self.seed, self.persons, CHILDREN)[self.person]
 
 
-def plan(persons: int, takes: int, seed: int, labels: Sequence[str] | None = None, irrelevant: int = 0) -> list[Job]:
+def plan(
+    persons: int,
+    takes: int,
+    seed: int,
+    labels: Sequence[str] | None = None,
+    irrelevant: int = 0,
+    restless: float | None = None,
+) -> list[Job]:
     """List the clips of a data set: every person performs every label ``takes`` times, plus irrelevant motions.
 
-    Without ``labels`` these are the dynamic classes.
+    Without ``labels`` these are the dynamic classes; ``restless`` is as in :class:`Job`.
 
     Raises:
         FilmError: an unknown label, or a number that is not positive.
@@ -71,12 +83,15 @@ def plan(persons: int, takes: int, seed: int, labels: Sequence[str] | None = Non
     known = [*dynamic, *postures()]
     if persons < 1 or takes < 1 or irrelevant < 0:
         raise FilmError("a data set needs at least one person and one take, and no fewer than 0 irrelevant clips")
+    if restless is not None and not 0 <= restless <= 1:
+        raise FilmError(f"a share of {restless:g} of the clips cannot be restless; give 0 to 1")
     wanted = list(dynamic if labels is None else labels)
     unknown = [label for label in wanted if label not in known]
     if unknown:
         raise FilmError(f"class '{unknown[0]}' cannot be filmed; known: {', '.join(known)}")
-    jobs = [Job(seed, label, p, persons, take) for p in range(persons) for label in wanted for take in range(takes)]
-    jobs += [Job(seed, IRRELEVANT, k % persons, persons, k // persons) for k in range(irrelevant)]
+    people, turns = range(persons), range(takes)
+    jobs = [Job(seed, label, p, persons, take, restless) for p in people for label in wanted for take in turns]
+    jobs += [Job(seed, IRRELEVANT, k % persons, persons, k // persons, restless) for k in range(irrelevant)]
     return jobs
 
 
@@ -95,7 +110,7 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
     if out.exists() and not out.is_dir():
         raise FilmError(f"{out} is a file; give a folder for the data set")
     out.mkdir(parents=True, exist_ok=True)
-    _claim(out, {job.seed for job in jobs})
+    _claim(out, {(job.seed, job.restless) for job in jobs})
     for part in out.glob("*/.*.part.*"):
         part.unlink(missing_ok=True)
     todo = [job for job in jobs if not (out / job.file).exists()]
@@ -113,14 +128,16 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
     write_manifest(out, [row(job) for job in jobs])
 
 
-def _claim(out: Path, seeds: set[int]) -> None:
-    """Refuse a folder whose clips come from another seed; they would be taken for those of this one."""
+def _claim(out: Path, wanted: set[tuple[int, float | None]]) -> None:
+    """Refuse a folder whose clips were drawn otherwise; they would be taken for those of this data set."""
     try:
-        standing = {row.get("seed") for row in read_manifest(out)}
+        standing = {(row.get("seed"), row.get("restless")) for row in read_manifest(out)}
     except FilmError:
         return
-    if standing != seeds:
-        raise FilmError(f"{out} holds another data set (seed {sorted(map(str, standing))[0]}); choose another folder")
+    if standing != wanted:
+        seed, restless = sorted(standing, key=str)[0]
+        drawn = f"seed {seed}" if restless is None else f"seed {seed}, restless {restless:g}"
+        raise FilmError(f"{out} holds another data set ({drawn}); choose another folder")
 
 
 class _OpenStages:
@@ -172,7 +189,7 @@ def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[i
 def row(job: Job) -> dict[str, Any]:
     """The manifest row of a clip; everything in it follows from the job, so it need not be stored while filming."""
     made = photo_row(job.file, job.photo()) if job.is_photo else shot_row(job.file, job.shot())
-    return made | {"seed": job.seed}
+    return made | {"seed": job.seed, "restless": job.restless}
 
 
 def photo_row(file: str, photo: Photo) -> dict[str, Any]:

@@ -19,6 +19,8 @@ from nao_sim.people.surface import Array
 CLIP_SECONDS = (1.6, 6.5)
 # Share of a clip that a gesture fills at least, where it can: people who are filmed for it begin at once.
 _FILLED = 0.5
+# From hip joint to ankle, statures, as in models/person.
+_LEG = 0.49
 # Distal joints trail the shoulder by up to this long.
 _LAG_SECONDS = {"elbow": 0.03, "pronate": 0.05, "wrist_flex": 0.06, "wrist_deviate": 0.06, "head_roll": 0.08}
 
@@ -60,13 +62,13 @@ class Performance:
         for joint, rows in self.sway.items():
             waves = rows[:, 0] * np.sin(2 * np.pi * rows[:, 1] * times[:, None] + rows[:, 2])
             out[:, joint] += waves.sum(axis=1) * self.lively
-        if self.walk is not None:
-            walk_angles(self.walk, times, out)
         index = joints()
-        # The legs stay planted when the pelvis tips or leans.
+        # The feet stay where they are when the pelvis tips, leans or moves aside.
         for side, lean in (("r_", 1.0), ("l_", -1.0)):
             out[:, index[f"{side}hip_flex"]] += out[:, index["root_pitch"]]
-            out[:, index[f"{side}hip_abduct"]] -= lean * out[:, index["root_roll"]]
+            out[:, index[f"{side}hip_abduct"]] += lean * (out[:, index["root_y"]] / _LEG + out[:, index["root_roll"]])
+        if self.walk is not None:
+            walk_angles(self.walk, times, out)
         for slide in SLIDES:
             out[:, index[slide]] *= self.stature
         low, high = joint_ranges()
@@ -94,7 +96,14 @@ class Performance:
                 gesture[:, index[name]] += sign * amount * lift * self.lively
 
 
-def perform(label: str, person: Person, rng: Generator, half_width: float, action: str | None = None) -> Performance:
+def perform(
+    label: str,
+    person: Person,
+    rng: Generator,
+    half_width: float,
+    action: str | None = None,
+    restless: float | None = None,
+) -> Performance:
     """Draw a performance of ``label``.
 
     Clip lengths come from one distribution for all labels: the gesture is drawn again until it fits, and what is left
@@ -106,6 +115,7 @@ def perform(label: str, person: Person, rng: Generator, half_width: float, actio
         rng: source of everything that varies.
         half_width: half of the width (m) the camera sees at the person, for those who cross it.
         action: one irrelevant motion by name; by weight when None.
+        restless: share of performances by people who cannot keep still; as in the motion file when None.
     """
     ways = [m for m in motions()[label] if action in (None, m.action)]
     weight = np.array([m.weight for m in ways])
@@ -123,7 +133,7 @@ def perform(label: str, person: Person, rng: Generator, half_width: float, actio
         cycles=plan.cycles,
         strokes=plan.placed(lead, seconds),
         base=plan.base,
-        sway=sway_of_clip(rng),
+        sway=sway_of_clip(rng, restless),
         walk=None if plan.walk is None else plan.walk.delayed(lead),
         lively=person.liveliness,
         stature=person.stature,

@@ -55,7 +55,8 @@ def sample_shot(label: str, take: int | None = None) -> Shot:
     person = _person(table, label)
     first = table["take"].get(label, 0) if take is None else take
     for number in range(first, first + 400):
-        shot = replace(draw_shot(table["seed"], label, person, number), width=table["width"], height=table["height"])
+        shot = draw_shot(table["seed"], label, person, number, restless=0.0)
+        shot = replace(shot, width=table["width"], height=table["height"])
         if _suits(shot, table):
             break
     else:

@@ -75,13 +75,16 @@ def generator(seed: int, label: str, person: str, take: int, use: str) -> Genera
     return np.random.default_rng([seed, *(zlib.crc32(text.encode()) for text in (label, person, use)), take])
 
 
-def draw_shot(seed: int, label: str, person: Person, take: int, action: str | None = None) -> Shot:
-    """Draw the clip ``take`` of ``person`` performing ``label``."""
+def draw_shot(
+    seed: int, label: str, person: Person, take: int, action: str | None = None, restless: float | None = None
+) -> Shot:
+    """Draw the clip ``take`` of ``person`` performing ``label``; the last two are those of :func:`perform`."""
     table = cameras()
     rng = generator(seed, label, person.name, take, "scene")
     width, height, _ = weighted(table["sizes"], rng)
     fps = float(weighted(table["frame_rates"], rng)[0])
     framing, camera, half_width = _frame(label, person, width / height, table, rng)
+    acting = generator(seed, label, person.name, take, "act")
     return Shot(
         label=label,
         take=take,
@@ -91,7 +94,7 @@ def draw_shot(seed: int, label: str, person: Person, take: int, action: str | No
         camera=camera,
         light=draw_light(rng),
         sensor=Sensor.draw(table["sensor"], rng),
-        performance=perform(label, person, generator(seed, label, person.name, take, "act"), half_width, action),
+        performance=perform(label, person, acting, half_width, action, restless),
         width=int(width),
         height=int(height),
         fps=fps,

@@ -36,12 +36,26 @@ def standing(person: Person, rng: Generator) -> Array:
     return base
 
 
-def sway_of_clip(rng: Generator) -> dict[int, Array]:
-    """Three incommensurable sinusoids per swaying joint: rows (amplitude, Hz, phase)."""
+def sway_of_clip(rng: Generator, share: float | None = None) -> dict[int, Array]:
+    """Three incommensurable sinusoids per swaying joint: rows (amplitude, Hz, phase).
+
+    Args:
+        rng: source of everything that varies.
+        share: of clips in which somebody cannot keep still; by default as in the motion file.
+    """
+    restless = tables()["restless"]
+    larger, quicker = 1.0, 1.0
+    if rng.random() < (restless["share"] if share is None else share):
+        larger = float(np.exp(rng.uniform(*np.log(restless["larger"]))))
+        quicker = float(rng.uniform(*restless["quicker"]))
     found = {}
     for name, (deviation, period) in tables()["sway"].items():
         amount = deviation if name in SLIDES else np.radians(deviation)
-        share = rng.dirichlet([2.0, 1.5, 1.0]) ** 0.5
-        rates = np.array([1.0, 1.7, 3.1]) * rng.uniform(0.7, 1.4, 3) / period
-        found[joints()[name]] = np.stack([share * amount * np.sqrt(2), rates, rng.uniform(0, 2 * np.pi, 3)], axis=1)
+        # Eyes rest on what they look at: the head turns less restlessly than the body it is carried by.
+        amount *= np.sqrt(larger) if name.startswith("head_") else larger
+        parts = rng.dirichlet([2.0, 1.5, 1.0]) ** 0.5
+        # Large sways are slow ones: what is quick stays as small as it is in those who stand still.
+        parts *= np.array([1.0, 1.0, larger**-0.5])
+        rates = np.array([1.0, quicker, quicker]) * [1.0, 1.7, 3.1] * rng.uniform(0.7, 1.4, 3) / period
+        found[joints()[name]] = np.stack([parts * amount * np.sqrt(2), rates, rng.uniform(0, 2 * np.pi, 3)], axis=1)
     return found

@@ -87,6 +87,8 @@ def test_a_folder_with_another_film_is_left_alone(small):
     out, _ = small
     with pytest.raises(FilmError, match="choose another folder"):
         dataset.film(dataset.plan(1, 1, 5, ["yes"]), out, processes=1)
+    with pytest.raises(FilmError, match="choose another folder"):
+        dataset.film(dataset.plan(PERSONS, 1, 4, ["yes", "victory"], 1, restless=0.5), out, processes=1)
     assert not list(out.glob("yes/.*"))
 
 
@@ -246,7 +248,12 @@ def test_an_interrupted_avi_leaves_nothing(tmp_path):
 
 @pytest.mark.parametrize(
     ("arguments", "text"),
-    [((0, 1, 0), "at least one person"), ((1, 0, 0), "one take"), ((1, 1, 0, ["wave"]), "known: ")],
+    [
+        ((0, 1, 0), "at least one person"),
+        ((1, 0, 0), "one take"),
+        ((1, 1, 0, ["wave"]), "known: "),
+        ((1, 1, 0, None, 0, 1.2), "0 to 1"),
+    ],
 )
 def test_plans_that_cannot_be_filmed_say_why(arguments, text):
     with pytest.raises(FilmError, match=text):

@@ -33,6 +33,17 @@ def performances(label, count=6, **more):
     return [perform(label, CAST[k % 6], np.random.default_rng([k, 3]), 1.0, **more) for k in range(count)]
 
 
+def test_who_cannot_keep_still_sways_more_and_stands_on_the_same_feet():
+    still, restless = (performances("stop", 12, restless=share) for share in (0.0, 1.0))
+    sways = [np.ptp([track(p, "head", 30)[:, 1] for p in some], axis=1) for some in (still, restless)]
+    assert np.median(sways[1]) > 2 * np.median(sways[0])
+    assert np.max(sways[1]) > 0.23  # m: more than the head is high
+    for foot in ("r_foot", "l_foot"):
+        steps = [np.ptp(track(p, foot, 30)[:, 1]) for p in restless]
+        assert np.all(np.array(steps) < 0.35 * sways[1] + 0.02)
+    assert all(np.array_equal(a.strokes[0].knots, b.strokes[0].knots) for a, b in zip(still, restless, strict=True))
+
+
 def test_every_dynamic_class_and_ten_other_motions_can_be_performed():
     assert set(motions()) == {*DYNAMIC, IRRELEVANT}
     assert len({motion.action for motion in motions()[IRRELEVANT]}) >= 10

@@ -26,7 +26,8 @@ def cheapest(jobs: list[Job], label: str) -> Job:
 
 def test_clips_filmed_again_give_the_rows_of_the_database(shipped: Database, gl: None, tmp_path: Path) -> None:
     command = shipped.provenance["card"]["command"]
-    jobs = plan(command["persons"], command["takes"], command["seed"], command["classes"], command["irrelevant"])
+    asked = ("persons", "takes", "seed", "classes", "irrelevant", "restless")
+    jobs = plan(*(command[name] for name in asked))
     assert {job.file for job in jobs} == set(shipped.sources.tolist())
     film([cheapest(jobs, label) for label in LABELS], tmp_path, 1, lambda frames: None)
     families = dict(zip(shipped.labels.tolist(), shipped.families.tolist(), strict=True))
