@@ -14,6 +14,7 @@ from importlib.resources import files
 
 import cv2
 import numpy as np
+from scipy import fft
 
 HEAD = 6.0  # px: height of a head in the pyramid level where the template finds it
 CELL = 2  # px
@@ -28,8 +29,16 @@ FINE = 20  # cells of the closer look, 4.4 heads each way
 _FINE_RIM = 4  # cells around it, only for evening out the contrast
 _WEIGHTS = "head_shoulders.npz"
 _NEIGHBOURS = np.ones((3, 3), np.uint8)
-_BIN_CENTRES = np.arange(BINS, dtype=np.float32)[:, None, None]
 _HIGH = 0.9  # share of a level's places that are lower than any candidate
+
+
+def _shares() -> np.ndarray:
+    """How much of a gradient goes to each bin, (6, 256), by its orientation in 256 steps: the two nearest share it."""
+    away = np.abs((np.arange(256) + 0.5) * (BINS / 256) - np.arange(BINS)[:, None])
+    return np.maximum(0.0, 1.0 - np.minimum(away, BINS - away)).astype(np.float32)
+
+
+_SHARES = _shares()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,25 +66,15 @@ def cells(grey: np.ndarray) -> np.ndarray:
     gx = cv2.Sobel(image, cv2.CV_32F, 1, 0, ksize=1, borderType=cv2.BORDER_REPLICATE)
     gy = cv2.Sobel(image, cv2.CV_32F, 0, 1, ksize=1, borderType=cv2.BORDER_REPLICATE)
     energy = gx * gx + gy * gy
-    scale = 1.0 / np.sqrt(cv2.blur(energy, (25, 25)) + 30.0)
-    magnitude = np.sqrt(energy) * scale
-    np.minimum(magnitude, 3.0, out=magnitude)
-    angle = cv2.phase(gx, gy)
-    np.multiply(angle, BINS / np.pi, out=angle)
-    np.subtract(angle, BINS * (angle >= BINS).astype(np.float32), out=angle)
+    magnitude = np.sqrt(energy / (cv2.blur(energy, (25, 25)) + 30.0))
     rows, columns = (side // CELL for side in grey.shape)
     whole = slice(rows * CELL), slice(columns * CELL)
     planes = np.empty((CHANNELS, rows * CELL, columns * CELL), np.float32)
-    shares = planes[:BINS]
-    np.subtract(angle[whole], _BIN_CENTRES, out=shares)
-    np.abs(shares, out=shares)
-    # Only the first bin's neighbour lies beyond the end of the scale.
-    np.subtract(BINS, shares[0], out=planes[BINS])
-    np.minimum(shares[0], planes[BINS], out=shares[0])
-    np.subtract(1.0, shares, out=shares)
-    np.maximum(shares, 0.0, out=shares)
-    np.multiply(shares, magnitude[whole], out=shares)
-    planes[BINS] = magnitude[whole]
+    np.minimum(magnitude[whole], 3.0, out=planes[BINS])
+    # Half a turn in 256 steps; the other half has the same orientations.
+    angle = (cv2.phase(gx, gy)[whole] * np.float32(256 / np.pi)).astype(np.int32).astype(np.uint8)
+    for shares, plane in zip(_SHARES, planes[:BINS], strict=True):
+        cv2.multiply(cv2.LUT(angle, shares), planes[BINS], dst=plane)
     # One above the other they are one picture: cells do not reach across.
     stacked = planes.reshape(-1, columns * CELL)
     means = cv2.resize(stacked, (columns, CHANNELS * rows), interpolation=cv2.INTER_AREA)
@@ -92,10 +91,14 @@ def pyramid(grey: np.ndarray) -> list[tuple[float, np.ndarray]]:
     """Return (head height [px of ``grey``], cells) of each level; the border is padded by half a template."""
     height, width = grey.shape
     out = []
+    source = grey
     for head in levels(height, width):
         scale = HEAD / head
         size = (max(8, round(width * scale)), max(8, round(height * scale)))
-        smaller = cv2.resize(grey, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
+        # The small ones are made from a picture at most four times their size, which is soon looked through.
+        if size[0] * 4 <= source.shape[1] and size[1] * 4 <= source.shape[0]:
+            source = cv2.resize(source, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+        smaller = cv2.resize(source, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
         out.append((head, cells(smaller)))
     return out
 
@@ -124,17 +127,27 @@ def ranking() -> tuple[np.ndarray, float]:
 
 
 def score_maps(grey: np.ndarray, weights: np.ndarray, offset: float) -> list[tuple[float, np.ndarray]]:
-    """Return (head height [px], score of each cell as the head's centre) for every level."""
+    """Return (head height [px], score of each cell as the head's centre) for every level.
+
+    Beyond the image nothing is known: zeros.
+    """
     out = []
     for head, level in pyramid(grey):
-        total = np.full(level.shape[:2], offset, np.float32)
-        for c in range(CHANNELS):
-            # Beyond the image nothing is known: constant zero borders.
-            anchor = (int(HEAD_AT[0]), int(HEAD_AT[1]))
-            plane = np.ascontiguousarray(level[:, :, c])
-            total += cv2.filter2D(plane, cv2.CV_32F, weights[:, :, c], anchor=anchor, borderType=cv2.BORDER_CONSTANT)
-        out.append((head, total))
+        rows, columns = level.shape[:2]
+        shape = (fft.next_fast_len(rows + TALL - 1, True), fft.next_fast_len(columns + WIDE - 1, True))
+        # One transform back serves all channels: correlation is a product of spectra, and they add up.
+        spectrum = fft.rfft2(np.moveaxis(level, -1, 0), shape) * _spectrum(weights.tobytes(), shape)
+        scores = fft.irfft2(spectrum.sum(axis=0), shape)
+        centred = np.roll(scores, (int(HEAD_AT[1]), int(HEAD_AT[0])), axis=(0, 1))
+        out.append((head, centred[:rows, :columns] + np.float32(offset)))
     return out
+
+
+@functools.lru_cache(maxsize=64)
+def _spectrum(weights: bytes, shape: tuple[int, int]) -> np.ndarray:
+    """Spectrum of a template's channels (7, …), as correlation needs it."""
+    planes = np.frombuffer(weights, np.float32).reshape(TALL, WIDE, CHANNELS)
+    return np.conj(fft.rfft2(np.moveaxis(planes, -1, 0), shape))
 
 
 def best_bodies(maps: list[tuple[float, np.ndarray]], size: tuple[int, int], count: int = 14) -> list[Body]:
@@ -173,10 +186,20 @@ def _fine_cells(grey: np.ndarray, body: Body) -> np.ndarray:
     # The head's centre stands where it stands in the coarse template.
     left = body.x - (HEAD_AT[0] + 0.5) / WIDE * FINE * CELL * scale - _FINE_RIM * CELL * scale
     top = body.y - (HEAD_AT[1] + 0.5) / TALL * FINE * CELL * scale - _FINE_RIM * CELL * scale
-    size = max(2, round(side * scale))
-    crop = cv2.warpAffine(
-        grey, np.array([[1, 0, left], [0, 1, top]], np.float32), (size, size),
-        flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP, borderMode=cv2.BORDER_REPLICATE,
-    )  # fmt: skip
+    crop = _square(grey, round(left), round(top), max(2, round(side * scale)))
     window = cv2.resize(crop, (side, side), interpolation=cv2.INTER_AREA if scale > 1 else cv2.INTER_LINEAR)
     return cells(window)[_FINE_RIM:-_FINE_RIM, _FINE_RIM:-_FINE_RIM].ravel()
+
+
+def _square(grey: np.ndarray, left: int, top: int, size: int) -> np.ndarray:
+    """A square part of a picture; beyond the border its edge is repeated."""
+    height, width = grey.shape
+    # At least a row and a column of the picture, however far away the square is.
+    first_row, last_row = min(max(top, 0), height - 1), max(min(top + size, height), 1)
+    first_column, last_column = min(max(left, 0), width - 1), max(min(left + size, width), 1)
+    part = grey[first_row:last_row, first_column:last_column]
+    if part.shape == (size, size):
+        return part
+    above, before = (min(max(missing, 0), size - 1) for missing in (first_row - top, first_column - left))
+    below, after = size - above - part.shape[0], size - before - part.shape[1]
+    return cv2.copyMakeBorder(part, above, below, before, after, cv2.BORDER_REPLICATE)

@@ -74,7 +74,7 @@ class Sampler:
         if image is frame:
             image = frame.copy()
         grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-        small = cv2.resize(grey, scaled_size(width, height, FLOW_SIDE), interpolation=cv2.INTER_AREA)
+        small = cv2.resize(_halved(grey), scaled_size(width, height, FLOW_SIDE), interpolation=cv2.INTER_AREA)
         time = number / self.fps
         looks, self._looks = (*self._looks, (time, grey)), []
         self._looks_taken = max(self._looks_taken, int(number / self._look_step) + 1)
@@ -87,6 +87,14 @@ class Sampler:
             return
         self._looks_taken += 1
         self._looks.append((number / self.fps, _limited(cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY))))
+
+
+def _halved(grey: np.ndarray) -> np.ndarray:
+    """A picture of half the size, which is quickly made, where that is still more than the flow needs."""
+    height, width = grey.shape
+    if height % 2 or width % 2 or max(height, width) < 2 * FLOW_SIDE:
+        return grey
+    return cv2.resize(grey, (width // 2, height // 2), interpolation=cv2.INTER_AREA)
 
 
 def _limited(picture: np.ndarray) -> np.ndarray:
