@@ -22,6 +22,7 @@ class Active:
         head: (n, 2, h, w) velocity in the window HEAD.
         pictures: (n, h, w) windows with even contrast.
         poses: (n, h, w) uint8 windows POSE.
+        places: (n, 2) of the head [head heights].
         seconds: (n,) duration of each step.
         first, last: steps first … last-1 are active.
         phases: (5, n) seconds that each step contributes to each phase.
@@ -36,6 +37,7 @@ class Active:
     torso: np.ndarray
     pictures: np.ndarray
     poses: np.ndarray
+    places: np.ndarray
     seconds: np.ndarray
     first: int
     last: int
@@ -67,6 +69,7 @@ def active_part(steps: Steps) -> Active:
         steps.stacked("torso"),
         steps.stacked("picture"),
         steps.stacked("pose"),
+        steps.stacked("place"),
         seconds,
         first,
         last,

@@ -6,9 +6,12 @@ import cv2
 import numpy as np
 
 from recognizer.finder import Body, best_bodies, closer_look, closer_template, ranking, score_maps, template
+from recognizer.head_fit import fit, fit_weights, moved
 from recognizer.samples import Sample
 
-OBSERVED = (1, 6, 11, 16, 26, 36, 46, 56)  # samples on which the template is tried, until the person is found
+OBSERVED = (1, 8, 16, 26, 36, 46, 56)  # samples on which the template is tried, until the person is found
+FITTED_EVERY = 2  # samples: on these the head's place is made exact once it is known who it is …
+FITTED = 8  # … on so many of them at most
 LAG = 2  # samples between the two pictures whose difference is motion
 MOVED = 8.0  # grey levels
 ACTIVE_AREA = 0.004  # share of the image that must change for a sample to count as moving
@@ -30,6 +33,7 @@ class BodyFinder:
         self._flat: list[np.ndarray] = []
         self._moved: list[np.ndarray] = []
         self._found: list[tuple[int, list[Body], np.ndarray]] = []
+        self._pictures: list[np.ndarray] = []
         self._last: Sample | None = None
 
     def observe(self, sample: Sample) -> None:
@@ -38,6 +42,8 @@ class BodyFinder:
             return
         number = len(self._moved)
         self._last = sample
+        if number % FITTED_EVERY == 0:
+            self._pictures.append(sample.grey)
         # Without the local mean, flicker and exposure do not look like motion.
         self._flat.append(sample.small - cv2.blur(sample.small, (15, 15)))
         self._flat = self._flat[-LAG - 1 :]
@@ -55,8 +61,9 @@ class BodyFinder:
         """Return the places that look like a person, and the score of the closer look at each."""
         height, width = grey.shape
         found = best_bodies(score_maps(grey, *template()), (width, height))
+        cells = closer_look(grey, found)
         weights, offset = closer_template()
-        return found, closer_look(grey, found) @ weights + offset
+        return moved(found, cells, *fit_weights()[0]), cells @ weights + offset
 
     def decide(self) -> Body:
         """Choose among the candidates seen so far; the same answer whenever it is called again."""
@@ -69,8 +76,20 @@ class BodyFinder:
             weights, offset = ranking()
             scores = table @ weights + offset
             best = int(np.argmax(scores))
-            self.body = _mean_body(candidates, scores, best)
+            self.body = self._exact(_mean_body(candidates, scores, best))
+            self._pictures.clear()
         return self.body
+
+    def _exact(self, body: Body) -> Body:
+        """Fit the head in several pictures; the median of them is where it mostly is, and its size."""
+        chosen = np.unique(np.linspace(0, len(self._pictures) - 1, FITTED).round().astype(int))
+        fits = [fit(self._pictures[k], body) for k in chosen]
+        x, y, head = np.median([(b.x, b.y, b.head) for b in fits], axis=0).tolist()
+        return Body(x, y, head, body.score)
+
+    def searched(self) -> np.ndarray:
+        """Number of the sample, from 0, in which each candidate was found."""
+        return np.concatenate([np.full(len(found), number) for number, found, _ in self._found])
 
     def candidates(self) -> tuple[list[Body], np.ndarray]:
         """Return the candidates and what is known of each, (n, 32).
@@ -84,7 +103,7 @@ class BodyFinder:
         bodies = [body for _, found, _ in self._found for body in found]
         if not bodies:
             return [], np.zeros((0, 2 * len(NAMES)))
-        numbers = np.concatenate([np.full(len(found), number) for number, found, _ in self._found])
+        numbers = self.searched()
         places = np.array([(b.x, b.y, b.head, b.score) for b in bodies])
         again = np.zeros(len(bodies))
         same = _same(places, places)
@@ -121,7 +140,7 @@ def _same(some: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 def _mean_body(candidates: list[Body], scores: np.ndarray, best: int) -> Body:
-    """Average the chosen candidate with its sightings on other samples: levels of the pyramid are coarse."""
+    """Average the chosen candidate with its sightings on other samples."""
     places = np.array([(b.x, b.y, b.head) for b in candidates])
     x, y, head = places[_same(places, places[best : best + 1])[:, 0]].T
     return Body(float(x.mean()), float(y.mean()), float(np.exp(np.log(head).mean())), float(scores[best]))

@@ -24,7 +24,7 @@ from recognizer.unrest import unrest_features
 from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, make_step
 
 METHOD = "body"
-VERSION = 3
+VERSION = 4
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
@@ -53,6 +53,7 @@ def describe(
         *_paths(active),
         *_circulation(active),
         *_head(active),
+        *_head_places(active),
         *head_features(head_motion),
         *_whole_image(regions, body, size),
         ("moved", np.array([math.log1p(active.moved), math.log1p(active.speed.max(axis=0).mean())])),
@@ -150,6 +151,14 @@ def _head(active: Active) -> Iterator[Item]:
     yield "head_cells", np.sqrt(cells / (cells.sum() + 0.1))
 
 
+def _head_places(active: Active) -> Iterator[Item]:
+    """Where the head is in each phase against where it was before, and how far it goes to the sides and up and down."""
+    before = active.places[max(0, active.first - 2) : active.first + 1].mean(axis=0)
+    phases = active.phases @ active.places / (active.phases.sum(axis=1, keepdims=True) + 1e-6) - before
+    spread = np.log(active.places[active.first : active.last].std(axis=0) + 0.03)
+    yield "head_places", np.concatenate([phases.T.ravel(), spread])
+
+
 def _whole_image(regions: list[MovingRegions], body: Body, size: tuple[int, int]) -> Iterator[Item]:
     """Path of all motion across the image, for who walks through it."""
     head, aspect = body.head / size[0], size[0] / size[1]
@@ -198,7 +207,7 @@ def blank() -> list[Item]:
     pose = np.zeros(POSE.size[::-1], np.uint8)
     steps = Steps(7)
     for i in range(1, 8):
-        steps.append(make_step(0.1 * i, 0.1, zero[0], zero, head, pose))
+        steps.append(make_step(0.1 * i, 0.1, zero[0], zero, head, pose, np.zeros(2, np.float32)))
     head_motion = np.zeros((7, 2 + len(HEAD_MOTIONS) + len(LIGHT)), np.float32)
     head_motion[:, 1] = 0.1
     return describe(steps, head_motion, [], Body(40, 40, 10, 0), (320, 240))

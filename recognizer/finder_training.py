@@ -1,12 +1,11 @@
 """How the head-and-shoulders templates of :mod:`recognizer.finder` are learned from pictures with known heads.
 
-Three small linear steps, seconds to minutes on a laptop: a coarse template against the backgrounds it mistakes for
-people, a finer one against the coarse one's mistakes, and weights that choose among the candidates of a clip.
+Small linear steps, minutes on a laptop: a coarse template against the backgrounds it mistakes for people, the fit of
+the exact place, a finer template against the coarse one's mistakes, and weights that choose among a clip's candidates.
 """
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -20,47 +19,34 @@ from recognizer import finder
 from recognizer.body import BodyFinder
 from recognizer.clip import open_clip
 from recognizer.finder import CELL, CHANNELS, HEAD, HEAD_AT, TALL, WIDE, Body
-from recognizer.samples import Sample, Sampler
+from recognizer.head_fit import moved
+from recognizer.head_fit_training import learn_fit, save_fit
+from recognizer.known_heads import KnownHead, Picture, pictures_of
+from recognizer.samples import Sampler
 
 COARSE_RIDGE, FINE_RIDGE = 30.0, 150.0
 ROUNDS = 3  # of adding what is mistaken for a person
 RANDOM_PLACES, HARD_PLACES = 20, 20  # a picture
 Weights = tuple[np.ndarray, float]
+Step = tuple[np.ndarray, np.ndarray]
 
 
-@dataclasses.dataclass(frozen=True)
-class KnownHead:
-    """Truth for one clip: the head in its first frame.
-
-    Attributes:
-        path: the clip.
-        group: person, so that scores can be cross-fitted.
-        x, y, head: centre and height of the head, in fractions of the image's height.
-    """
-
-    path: Path
-    group: str
-    x: float
-    y: float
-    head: float
-
-
-def train(heads: Sequence[KnownHead], out: Path, seed: int = 0, tell: Callable[[str], None] = print) -> None:
-    """Learn all three steps and write the weights file.
+def train(heads: Sequence[KnownHead], out: Path, fit: Path, seed: int = 0, tell: Callable[[str], None] = print) -> None:
+    """Learn all steps and write the weights files.
 
     Args:
         heads: clips with known heads, of several persons.
-        out: the .npz file to write.
+        out: the .npz file to write for the finder.
+        fit: the .npz file to write for the fit.
         seed: of the random places that stand for background.
         tell: called with a line of progress.
     """
     rng = np.random.default_rng(seed)
-    pictures = [(_first_sample(known).grey, known) for known in heads]
-    coarse = _coarse(pictures, rng, tell)
-    clips = [_candidates(known, coarse) for known in heads]
-    right = np.concatenate(
-        [_is_head(known, bodies, height) for known, (bodies, _, _, height) in zip(heads, clips, strict=True)]
-    )
+    coarse = _coarse([picture for known in heads for picture in pictures_of(known, (1,))], rng, tell)
+    steps = learn_fit([picture for known in heads for picture in pictures_of(known)], rng, tell)
+    save_fit(steps, fit)
+    clips = [_candidates(known, coarse, steps[0]) for known in heads]
+    right = np.concatenate([clip[3] for clip in clips])
     groups = np.concatenate([[known.group] * len(clip[0]) for known, clip in zip(heads, clips, strict=True)])
     table, cells = np.concatenate([clip[1] for clip in clips]), np.concatenate([clip[2] for clip in clips])
     tell(f"{len(right)} candidates, {int(right.sum())} of them heads")
@@ -87,22 +73,13 @@ def balanced_ridge(X: np.ndarray, positive: np.ndarray, ridge: float) -> Weights
     return solution, float(level - centre @ solution)
 
 
-def _first_sample(known: KnownHead) -> Sample:
-    clip = open_clip(known.path, (0, 0))
-    sample = Sampler(clip.fps).push(next(iter(clip)))
-    assert sample is not None
-    return sample
-
-
-def _coarse(
-    pictures: list[tuple[np.ndarray, KnownHead]], rng: np.random.Generator, tell: Callable[[str], None]
-) -> Weights:
+def _coarse(pictures: list[Picture], rng: np.random.Generator, tell: Callable[[str], None]) -> Weights:
     """Heads against random places, then against the places that the template itself likes best."""
     X, y = [], []
     template: Weights | None = None
     for turn in range(ROUNDS + 1):
-        for grey, known in pictures:
-            for patch, positive in _patches(grey, known, template, rng):
+        for picture in pictures:
+            for patch, positive in _patches(picture, template, rng):
                 X.append(patch)
                 y.append(positive)
         flat, offset = balanced_ridge(np.array(X, np.float32), np.array(y), COARSE_RIDGE)
@@ -112,13 +89,11 @@ def _coarse(
     return template
 
 
-def _patches(
-    grey: np.ndarray, known: KnownHead, template: Weights | None, rng: np.random.Generator
-) -> list[tuple[np.ndarray, bool]]:
-    height, width = grey.shape
-    x, y, head = known.x * height, known.y * height, known.head * height
+def _patches(picture: Picture, template: Weights | None, rng: np.random.Generator) -> list[tuple[np.ndarray, bool]]:
     if rng.random() < 0.5:
-        grey, x = np.ascontiguousarray(grey[:, ::-1]), width - x
+        picture = picture.mirrored()
+    grey, (x, y, head) = picture.grey, (picture.body.x, picture.body.y, picture.body.head)
+    height, width = grey.shape
     out = []
     for _ in range(2):
         scale = HEAD / head * np.exp(rng.normal(0, 0.06))
@@ -170,19 +145,19 @@ def _patch(level: np.ndarray, row: int, column: int) -> np.ndarray:
 
 
 class _Collector(BodyFinder):
-    """A finder with another coarse template that keeps what the closer look would see."""
+    """A finder with weights in training that keeps what the closer look would see."""
 
-    def __init__(self, coarse: Weights) -> None:
+    def __init__(self, coarse: Weights, step: Step) -> None:
         super().__init__()
-        self.coarse = coarse
+        self.coarse, self.step = coarse, step
         self.cells: list[np.ndarray] = []
 
     def search(self, grey: np.ndarray) -> tuple[list[Body], np.ndarray]:
-        """Candidates by the template in training; their closer look is scored later."""
+        """Candidates by the weights in training; their closer look is scored later."""
         height, width = grey.shape
         found = finder.best_bodies(finder.score_maps(grey, *self.coarse), (width, height))
         self.cells.append(finder.closer_look(grey, found))
-        return found, np.zeros(len(found))
+        return moved(found, self.cells[-1], *self.step), np.zeros(len(found))
 
     def decide(self) -> Body:
         """Stop searching; which candidate is right is known already."""
@@ -190,27 +165,22 @@ class _Collector(BodyFinder):
         return self.body
 
 
-def _candidates(known: KnownHead, coarse: Weights) -> tuple[list[Body], np.ndarray, np.ndarray, int]:
+def _candidates(known: KnownHead, coarse: Weights, step: Step) -> tuple[list[Body], np.ndarray, np.ndarray, np.ndarray]:
+    """Candidates of a clip, what is known of each, what the closer look sees, and which are the head."""
     clip = open_clip(known.path)
-    sampler, collector = Sampler(clip.fps), _Collector(coarse)
+    sampler, collector = Sampler(clip.fps), _Collector(coarse, step)
     for frame in clip:
         sample = sampler.push(frame)
         if sample is not None:
             collector.observe(sample)
     bodies, table = collector.candidates()
-    return (
-        bodies,
-        table[:, : table.shape[1] // 2],
-        np.concatenate(collector.cells).astype(np.float16),
-        sampler.samples[0].grey.shape[0],
-    )
-
-
-def _is_head(known: KnownHead, bodies: list[Body], height: int) -> np.ndarray:
-    head = known.head * height
-    near = [np.hypot(b.x - known.x * height, b.y - known.y * height) < 0.4 * head for b in bodies]
-    alike = [abs(np.log(b.head / head)) < 0.25 for b in bodies]
-    return np.array(near) & np.array(alike)
+    samples = list(sampler.samples)
+    true = [known.body(samples[number].index, samples[0].grey.shape[0]) for number in collector.searched()]
+    right = [
+        np.hypot(b.x - t.x, b.y - t.y) < 0.35 * t.head and abs(np.log(b.head / t.head)) < 0.25
+        for b, t in zip(bodies, true, strict=True)
+    ]
+    return bodies, table[:, : table.shape[1] // 2], np.concatenate(collector.cells).astype(np.float16), np.array(right)
 
 
 def _fine(cells: np.ndarray, right: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, Weights]:

@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 
 from recognizer.finder import Body
+from recognizer.head_follow import displacement
 from recognizer.window import View, cut_window, even_contrast
 
 NAMES = ("right", "down", "roll", "nearer", "turn", "nod", "chest_right", "chest_down")
@@ -97,22 +98,28 @@ _TRUNK = [MotionFit(*_chest_fields(CHEST.pixels), np.full(2, 0.02))]  # one leve
 
 
 class HeadMotion:
-    """Follows a known head frame by frame, at the camera's own rate."""
+    """Measures a head's motion frame by frame, at the camera's own rate."""
 
-    def __init__(self, body: Body) -> None:
-        self.body = body
-        self._before: tuple[float, list[np.ndarray], list[np.ndarray]] | None = None
+    def __init__(self) -> None:
+        self._before: tuple[float, Body, list[np.ndarray], list[np.ndarray]] | None = None
 
-    def push(self, time: float, grey: np.ndarray) -> np.ndarray | None:
-        """Take the next frame, (h, w) uint8; return time, seconds since the frame before, NAMES and LIGHT, (17,)."""
-        window, trunk = cut_window(grey, self.body, FACE), cut_window(grey, self.body, CHEST)
+    def push(self, time: float, grey: np.ndarray, body: Body) -> np.ndarray | None:
+        """Take the next frame, (h, w) uint8, with the head about at ``body``.
+
+        Returns:
+            time, seconds since the frame before, NAMES and LIGHT, (17,). Where the window is does not count: the
+            motions are those in the picture.
+        """
+        window, trunk = cut_window(grey, body, FACE), cut_window(grey, body, CHEST)
         face = _halves(even_contrast(window, FINE_CONTRAST * FACE.pixels))
         chest = [even_contrast(trunk, CHEST_CONTRAST * CHEST.pixels)]
-        before, self._before = self._before, (time, face, chest)
+        before, self._before = self._before, (time, body, face, chest)
         if before is None:
             return None
         seconds = time - before[0]
-        head, torso = _coarse_to_fine(_HEAD, before[1], face), _coarse_to_fine(_TRUNK, before[2], chest)
+        head, torso = _coarse_to_fine(_HEAD, before[2], face), _coarse_to_fine(_TRUNK, before[3], chest)
+        head[:2] += (along := displacement(before[1], body))
+        torso += along
         light = _MOMENTS @ window.ravel()
         return np.concatenate([[time, seconds], head / seconds, torso / seconds, light, [window.std()]]).astype(
             np.float32

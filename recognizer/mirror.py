@@ -104,6 +104,8 @@ def _within(name: str, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
     elif name.startswith("path_"):  # x, y, spreads and amount of each phase, then the steps of x and of y
         sign[:PHASES] = -1
         sign[5 * PHASES : 6 * PHASES - 1] = -1
+    elif name == "head_places":  # x of each phase, y of each phase, spreads
+        sign[:PHASES] = -1
     elif name == "image_path":
         sign[[0, 4, 8, 10, 11]] = -1
     return order, sign

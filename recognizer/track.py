@@ -12,6 +12,7 @@ from recognizer.clip import Clip
 from recognizer.errors import ClipError
 from recognizer.finder import Body
 from recognizer.flow import horn_schunck
+from recognizer.head_follow import HeadFollower
 from recognizer.head_motion import HeadMotion
 from recognizer.samples import LOOKS, Sample, Sampler
 from recognizer.scene import Scene
@@ -48,7 +49,8 @@ class Track:
         self._waiting: deque[Sample] = deque(maxlen=kept)
         self._finder = BodyFinder() if find_body else None
         self._windows: Windows | None = None
-        self._head: HeadMotion | None = None
+        self._follower: HeadFollower | None = None
+        self._head = HeadMotion()
         self._head_rows: deque[np.ndarray] = deque(maxlen=kept * LOOKS)
         self.scene = Scene()
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
@@ -102,13 +104,14 @@ class Track:
                 self._work_off(CATCH_UP)
 
     def _work_off(self, count: int) -> None:
-        if self._windows is None or self._head is None:
-            self._windows, self._head = Windows(self.body), HeadMotion(self.body)
+        if self._windows is None or self._follower is None:
+            self._windows, self._follower = Windows(self.body), HeadFollower(self.body)
         for _ in range(min(count, len(self._waiting))):
             sample = self._waiting.popleft()
-            rows = (self._head.push(time, grey) for time, grey in sample.looks)
+            head = self._follower.push(sample.grey)
+            rows = (self._head.push(time, grey, head) for time, grey in sample.looks)
             self._head_rows.extend(row for row in rows if row is not None)
-            step = self._windows.push(sample)
+            step = self._windows.push(sample, head)
             if step is not None:
                 self.steps.append(step)
 

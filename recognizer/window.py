@@ -9,6 +9,7 @@ import numpy as np
 
 from recognizer.finder import Body
 from recognizer.flow import horn_schunck
+from recognizer.head_follow import displacement
 from recognizer.samples import Sample
 
 LEVELS, ITERATIONS, ALPHA = 3, 12, 6.0
@@ -66,8 +67,9 @@ class Step:
         speed: (64, 80) its magnitude.
         ways: (4, 8, 10) motion right, left, down and up, mean over cells of one head height.
         torso: (2,) mean velocity of chest and belly, slow motion included.
-        head_flow: (2, 42, 42) velocity in the window HEAD, slow motion included.
+        head_flow: (2, 42, 42) velocity in the window HEAD, which follows the head, slow motion included.
         pose: (88, 112) uint8, the window POSE as the camera saw it.
+        place: (2,) of the head, right and down from the person's place [head heights].
     """
 
     time: float
@@ -79,6 +81,7 @@ class Step:
     torso: np.ndarray
     head_flow: np.ndarray
     pose: np.ndarray
+    place: np.ndarray
 
 
 class Windows:
@@ -86,24 +89,32 @@ class Windows:
 
     def __init__(self, body: Body) -> None:
         self.body = body
-        self._before: tuple[float, np.ndarray, np.ndarray] | None = None
+        self._before: tuple[float, np.ndarray, np.ndarray, Body] | None = None
 
-    def push(self, sample: Sample) -> Step | None:
-        """Take the next sample; the first gives no step."""
+    def push(self, sample: Sample, head: Body) -> Step | None:
+        """Take the next sample, in which the head is at ``head``; the first gives no step."""
         whole = even_contrast(cut_window(sample.grey, self.body, WHOLE), WHOLE.pixels / 2)
-        head = even_contrast(cut_window(sample.grey, self.body, HEAD), HEAD.pixels / 4)
-        before, self._before = self._before, (sample.time, whole, head)
+        face = even_contrast(cut_window(sample.grey, head, HEAD), HEAD.pixels / 4)
+        before, self._before = self._before, (sample.time, whole, face, head)
         if before is None:
             return None
         seconds = sample.time - before[0]
         flow = np.stack(coarse_to_fine(before[1], whole)) / np.float32(WHOLE.pixels * seconds)
-        head_flow = np.stack(coarse_to_fine(before[2], head)) / np.float32(HEAD.pixels * seconds)
+        head_flow = np.stack(coarse_to_fine(before[2], face)) / np.float32(HEAD.pixels)
+        head_flow += displacement(before[3], head)[:, None, None]  # the window's own way
         pose = cut_window(sample.grey, self.body, POSE).astype(np.uint8)
-        return make_step(sample.time, seconds, whole, flow, head_flow, pose)
+        place = displacement(self.body, head)
+        return make_step(sample.time, seconds, whole, flow, head_flow / np.float32(seconds), pose, place)
 
 
 def make_step(
-    time: float, seconds: float, picture: np.ndarray, flow: np.ndarray, head_flow: np.ndarray, pose: np.ndarray
+    time: float,
+    seconds: float,
+    picture: np.ndarray,
+    flow: np.ndarray,
+    head_flow: np.ndarray,
+    pose: np.ndarray,
+    place: np.ndarray,
 ) -> Step:
     """Work out the rest of a step from its flow, as it is measured."""
     speed = np.sqrt(flow[0] * flow[0] + flow[1] * flow[1])
@@ -111,7 +122,7 @@ def make_step(
     moving = (speed > STILL).astype(np.float32)
     flow, speed = flow * moving, speed * moving
     ways = np.stack([np.maximum(f, 0) for f in (flow[0], -flow[0], flow[1], -flow[1])])
-    return Step(time, seconds, picture, flow, speed, cell_means(ways), torso, head_flow, pose)
+    return Step(time, seconds, picture, flow, speed, cell_means(ways), torso, head_flow, pose, place)
 
 
 def cell_means(maps: np.ndarray, per_head: int = 1) -> np.ndarray:

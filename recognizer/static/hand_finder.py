@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 
 from recognizer.finder import CELL, Body, best_bodies, closer_look, closer_template, score_maps, template
+from recognizer.head_fit import fit
 from recognizer.static import windows
 from recognizer.static.types import Floats, Image
 
@@ -66,8 +67,9 @@ def find_heads(bgr: Image, count: int = HEADS) -> list[Body]:
         return []
     fine, offset = closer_template()
     closer = closer_look(small, found) @ fine + offset
+    exact = [fit(small, body) for body in found]
     bodies = [
-        Body(b.x / scale, b.y / scale, b.head / scale, float(b.score + c)) for b, c in zip(found, closer, strict=True)
+        Body(b.x / scale, b.y / scale, b.head / scale, float(b.score + c)) for b, c in zip(exact, closer, strict=True)
     ]
     return sorted(bodies, key=lambda body: -body.score)[:count]
 

@@ -41,11 +41,11 @@ def bulge() -> np.ndarray:
     return np.sqrt(np.clip(1 - (x / AXES[0]) ** 2 - (y / AXES[1]) ** 2, 0, 1))
 
 
-def measured(first: np.ndarray, second: np.ndarray, body: Body = BODY) -> dict[str, float]:
-    """Motion between two pictures [head heights per frame]."""
-    head = HeadMotion(body)
-    assert head.push(0.0, first) is None
-    row = head.push(SECONDS, second)
+def measured(first: np.ndarray, second: np.ndarray, body: Body = BODY, after: Body | None = None) -> dict[str, float]:
+    """Motion between two pictures [head heights per frame], of a head at ``body`` and then at ``after``."""
+    head = HeadMotion()
+    assert head.push(0.0, first, body) is None
+    row = head.push(SECONDS, second, after or body)
     assert row is not None
     assert row[:2] == pytest.approx([SECONDS, SECONDS], rel=1e-6)
     return dict(zip(NAMES, (row[2:10] * SECONDS).tolist(), strict=True))
@@ -59,6 +59,14 @@ def test_sway_moves_head_and_chest_together(texture: np.ndarray, right: float, d
         assert found[part + "down"] == pytest.approx(down / BODY.head, abs=0.012)
     assert abs(found["turn"]) < 0.02
     assert abs(found["nod"]) < 0.02
+
+
+def test_where_the_window_is_does_not_count(texture: np.ndarray) -> None:
+    pair = texture, moved(texture, 9.0 + 2.0 * bulge(), -4.0)
+    followed = measured(*pair, after=Body(BODY.x + 8, BODY.y - 5, BODY.head, 1.0))
+    for name, expected in (("chest_right", 9.0), ("chest_down", -4.0), ("down", -4.0)):
+        assert followed[name] == pytest.approx(expected / BODY.head, abs=0.02)
+    assert followed["right"] + followed["turn"] == pytest.approx(11.0 / BODY.head, abs=0.04)
 
 
 @pytest.mark.parametrize(("name", "other"), [("turn", "nod"), ("nod", "turn")])

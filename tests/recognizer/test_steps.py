@@ -13,7 +13,9 @@ from recognizer.window import HEAD, POSE, WHOLE, Step, make_step
 def step(number: int) -> Step:
     zero = np.zeros((2, *WHOLE.size[::-1]), np.float32)
     pose = np.full(POSE.size[::-1], number % 256, np.uint8)
-    return make_step(0.1 * number, 0.1, zero[0] + number, zero, np.zeros((2, *HEAD.size[::-1]), np.float32), pose)
+    return make_step(
+        0.1 * number, 0.1, zero[0] + number, zero, np.zeros((2, *HEAD.size[::-1]), np.float32), pose, np.zeros(2)
+    )
 
 
 @given(st.integers(1, 6), st.integers(1, 40))
