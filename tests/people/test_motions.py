@@ -157,7 +157,7 @@ def test_walks_cross_the_image(label, sign):
 
 
 def test_stop_brings_the_palm_forward_and_holds_it():
-    for done in performances("stop"):
+    for done in performances("stop", restless=0.0):
         hand, shoulder = track(done, "r_hand"), track(done, "r_upper_arm")
         assert (hand[-1] - shoulder[-1])[0] > 0.15
         assert np.ptp(hand[-6:], axis=0).max() < 0.08

@@ -22,7 +22,7 @@ def held_up(beats: float, column: int = 14, seconds: float = 4.0) -> Active:
     none = np.zeros((n, HEIGHT, WIDTH), np.float32)
     seconds_each = np.full(n, PERIOD, np.float32)
     return Active(
-        none, none, none, none, none, none, pictures, none, seconds_each, 0, n, np.zeros((5, n)), 1.0
+        none, none, none, none, none, none, pictures, none, none, seconds_each, 0, n, np.zeros((5, n)), 1.0
     )  # fmt: skip
 
 

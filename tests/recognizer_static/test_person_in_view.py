@@ -67,24 +67,24 @@ def test_a_place_is_the_hand_and_none_is_the_face(skin):
 
 
 def test_hands_of_filmed_persons_are_named_and_seldom_wrongly(recognizer):
-    """Ten whole persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
+    """Two dozen whole persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
     from nao_sim.people import photos
     from nao_sim.people.dataset import plan
     from nao_sim.people.stage import Stage
 
     found = []
     with Stage(photos.DETAIL) as stage:
-        shots = (job.photo() for job in plan(8, 2, 77, ["stop_hand", "victory", "pointing", "round"]))
-        for photo in [p for p in shots if not p.close and p.height >= 480][:10]:
+        shots = (job.photo() for job in plan(32, 2, 77, ["stop_hand", "victory", "pointing", "round"]))
+        for photo in [p for p in shots if not p.close and p.height >= 480][:24]:
             try:
                 label = recognizer.recognize(photos.take_photo(stage, photo)).label
             except NoHandError:
                 label = None
             found.append((label == photo.label, label not in (None, photo.label)))
     right, wrong = np.mean(found, axis=0)
-    assert len(found) >= 5
-    assert right >= 0.4, found
-    assert wrong <= 0.3, found
+    assert len(found) >= 20
+    assert right >= 0.3, found
+    assert wrong <= 0.25, found
 
 
 @pytest.mark.parametrize(
