@@ -67,7 +67,7 @@ def test_a_place_is_the_hand_and_none_is_the_face(skin):
 
 
 def test_hands_of_filmed_persons_are_named_and_seldom_wrongly(recognizer):
-    """Two dozen whole persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
+    """Two dozen persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
     from nao_sim.people import photos
     from nao_sim.people.dataset import plan
     from nao_sim.people.stage import Stage
