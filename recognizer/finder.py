@@ -88,7 +88,7 @@ def levels(height: int, width: int) -> list[float]:
 
 
 def pyramid(grey: np.ndarray) -> list[tuple[float, np.ndarray]]:
-    """Return (head height [px of ``grey``], cells) of each level; the border is padded by half a template."""
+    """Return (head height [px of ``grey``], cells) of each level."""
     height, width = grey.shape
     out = []
     source = grey

@@ -16,7 +16,7 @@ import numpy as np
 
 from recognizer.finder import Body, closer_look
 
-STEPS = 2  # to be learnt
+STEPS = 2  # that are learnt; the last one is for places that are close already
 FARTHEST = 0.5  # head heights, and in the logarithm of its height: a step goes no farther
 _WEIGHTS = "head_fit.npz"
 

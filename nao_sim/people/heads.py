@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from nao_sim.people.dataset import Job
+from nao_sim.people.errors import FilmError
 from nao_sim.people.manifest import read_manifest
 from nao_sim.people.persons import body_scales
 from nao_sim.people.shots import Shot
@@ -49,10 +50,16 @@ def heads_of_film(folder: Path) -> Iterator[tuple[dict[str, Any], Array]]:
     """Stage the clips of a data set that ``nao-sim film`` made again: each row of its manifest, and its head's track.
 
     The film must be one of this version's: what is staged is what the same command would film today.
+
+    Raises:
+        FilmError: the folder has no card that says how its clips were drawn, or no manifest.
     """
-    command = json.loads((folder / "card.json").read_text(encoding="utf-8"))["command"]
+    try:
+        command = json.loads((folder / "card.json").read_text(encoding="utf-8"))["command"]
+        persons, seed, restless = command["persons"], command["seed"], command["restless"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise FilmError(f"{folder} has no card.json of a film by this version; film it again") from error
     with Stage() as stage:
         for row in read_manifest(folder):
-            person, persons, restless = int(row["person"][1:]), command["persons"], command["restless"]
-            job = Job(command["seed"], row["label"], person, persons, row["take"], restless)
+            job = Job(seed, row["label"], int(row["person"][1:]), persons, row["take"], restless)
             yield row, head_track(stage, job.shot())

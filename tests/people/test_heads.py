@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from nao_sim.people import dataset
+from nao_sim.people.errors import FilmError
 from nao_sim.people.heads import head_track, heads_of_film
 from nao_sim.people.samples import sample_shot
 from nao_sim.resources import resource
@@ -36,3 +37,11 @@ def test_a_film_is_staged_with_its_own_seed_and_restlessness(stage, tmp_path):
     assert len(track) == row["frames"]
     assert np.allclose(track, head_track(stage, jobs[0].shot()))
     assert row["restless"] == 1.0
+
+
+@pytest.mark.parametrize("card", [None, "", "[]", '{"command": {"persons": 1, "seed": 6}}'])
+def test_a_folder_that_does_not_say_how_it_was_filmed_is_named(tmp_path, card):
+    if card is not None:
+        (tmp_path / "card.json").write_text(card, encoding="utf-8")
+    with pytest.raises(FilmError, match="film it again"):
+        next(heads_of_film(tmp_path))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 
 from recognizer.finder import Body
-from recognizer.window import POSE, WHOLE, View, cell_means, cut_window
+from recognizer.samples import Sample
+from recognizer.window import POSE, WHOLE, View, Windows, cell_means, cut_window
 
 WIDTH, HEIGHT = 1200, 900
 SCALE = 5.0  # pixels of the picture to one of the window: shrunk first
@@ -36,3 +38,25 @@ def test_cells_are_means_of_their_pixels(per_head: int) -> None:
     plain = maps.reshape(3, 2, 64 // side, side, 80 // side, side).mean(axis=(3, 5))
     np.testing.assert_allclose(cell_means(maps, per_head), plain, atol=1e-6)
     np.testing.assert_allclose(cell_means(maps[0, 0] > 0, per_head).mean(), (maps[0, 0] > 0).mean(), atol=1e-6)
+
+
+def test_motion_at_the_head_does_not_depend_on_where_its_window_is() -> None:
+    noise = np.random.default_rng(2).uniform(0, 255, (240, 320)).astype(np.float32)
+    picture = cv2.normalize(cv2.GaussianBlur(noise, (0, 0), 3), None, 0, 255, cv2.NORM_MINMAX).astype(np.uint8)
+    shift = np.array([[1, 0, 4], [0, 1, -2]], np.float32)
+    moved = cv2.warpAffine(picture, shift, (320, 240), borderMode=cv2.BORDER_REPLICATE)
+    body = Body(160.0, 100.0, 40.0, 1.0)
+
+    def head_flow(after: Body) -> np.ndarray:
+        windows = Windows(body)
+        steps = [
+            windows.push(Sample(k, 0.1 * k, grey[..., None].repeat(3, -1), grey, grey.astype(np.float32), ()), head)
+            for k, (grey, head) in enumerate(((picture, body), (moved, after)))
+        ]
+        assert steps[0] is None
+        assert steps[1] is not None
+        np.testing.assert_allclose(steps[1].place, [(after.x - 160) / 40, (after.y - 100) / 40], atol=1e-6)
+        return np.median(steps[1].head_flow, axis=(1, 2))
+
+    for head in (body, Body(164.0, 98.0, 40.0, 1.0), Body(156.0, 103.0, 40.0, 1.0)):
+        np.testing.assert_allclose(head_flow(head), [1.0, -0.5], atol=0.12)  # a tenth of a head in a tenth of a second

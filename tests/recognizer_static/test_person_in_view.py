@@ -6,8 +6,9 @@ import cv2
 import numpy as np
 import pytest
 
+from nao_sim.resources import resource
 from recognizer.finder import Body
-from recognizer.static import candidates, person, person_postures, recognise, windows
+from recognizer.static import PhotoRecognizer, candidates, person, person_postures, recognise, windows
 from recognizer.static.contrast import divide
 from recognizer.static.errors import NoHandError
 from recognizer.static.hand_finder import HAND, Spot, face_colour, find_hands, search, weights
@@ -66,8 +67,9 @@ def test_a_place_is_the_hand_and_none_is_the_face(skin):
     assert all(np.hypot(place.palm[0] - body.x, place.palm[1] - body.y) > 0.5 * body.head for place in found)
 
 
-def test_hands_of_filmed_persons_are_named_and_seldom_wrongly(recognizer):
+def test_hands_of_filmed_persons_are_named_and_seldom_wrongly():
     """Two dozen persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
+    recognizer = PhotoRecognizer.load(resource("assets", "databases", "static.parquet"))
     from nao_sim.people import photos
     from nao_sim.people.dataset import plan
     from nao_sim.people.stage import Stage
@@ -83,7 +85,7 @@ def test_hands_of_filmed_persons_are_named_and_seldom_wrongly(recognizer):
             found.append((label == photo.label, label not in (None, photo.label)))
     right, wrong = np.mean(found, axis=0)
     assert len(found) >= 20
-    assert right >= 0.3, found
+    assert right >= 0.4, found
     assert wrong <= 0.25, found
 
 
