@@ -1,58 +1,128 @@
 """How much each class's neighbours count: weights of the distances, learnt on persons the neighbours do not know.
 
 A class whose performances vary (*stop*) lies near everything, one that is always done alike (*kowtow*) near nothing.
-Weighing the logarithms of the distances makes up for it; the weights of one distance a class are those of votes 1/dⁿ
-with an n of its own for each pair of classes.
+Weighing the logarithms of the distances makes up for it: votes 1/dⁿ with an n of its own for each pair of classes. A
+small network beside it also sees which kinds of irrelevant motion are near; what the two say is averaged.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import warnings
+from collections.abc import Mapping
 
 import numpy as np
+from sklearn.exceptions import ConvergenceWarning
 from sklearn.linear_model import LogisticRegression
+from sklearn.neural_network import MLPClassifier
 
-STRENGTH = 10.0  # inverse of the pull towards equal weights
+STRENGTH = 1.0  # inverse of the pull towards equal weights
+HIDDEN, DECAY, ROUNDS = 96, 0.3, 40  # units of the network, pull of its weights towards 0, times it sees every row
 FARTHEST = 20.0  # logarithm that stands for a class without rows
 
 
 @dataclasses.dataclass(frozen=True)
+class Network:
+    """One hidden layer of rectified units: weights and offsets of both layers."""
+
+    hidden: np.ndarray
+    hidden_offsets: np.ndarray
+    output: np.ndarray
+    output_offsets: np.ndarray
+
+    def logits(self, inputs: np.ndarray) -> np.ndarray:
+        """Logarithms of the shares of (n, n_inputs), but for a constant of each row."""
+        units = np.maximum(inputs @ self.hidden + self.hidden_offsets, 0)
+        out: np.ndarray = units @ self.output + self.output_offsets
+        return out
+
+
+@dataclasses.dataclass(frozen=True)
 class Weights:
-    """Multinomial logistic weights.
+    """What a set of distances says about each label.
+
+    A row of distances holds, for L labels and K kinds of irrelevant motion, the mean of the k nearest rows of each
+    label, the mean of its 3k nearest, and the mean of the k nearest rows of each kind: (2L + K,).
 
     Attributes:
-        coefficients: (n_labels, n_distances).
+        coefficients: (n_labels, n_inputs) multinomial logistic weights of the labels' inputs.
         offsets: (n_labels,).
+        network: reads the kinds of irrelevant motion, too; None where nothing could be learnt.
     """
 
     coefficients: np.ndarray
     offsets: np.ndarray
+    network: Network | None = None
 
     @classmethod
-    def plain(cls, n_labels: int, power: float) -> Weights:
+    def plain(cls, n_labels: int, n_kinds: int, power: float) -> Weights:
         """Votes 1/dⁿ from the first distance of each label."""
-        coefficients = np.zeros((n_labels, 2 * n_labels))
+        coefficients = np.zeros((n_labels, 2 * n_labels + bool(n_kinds) + 1))
         coefficients[:, :n_labels] = power * np.eye(n_labels)
         return cls(coefficients, np.zeros(n_labels))
 
     @classmethod
-    def fit(cls, distances: np.ndarray, targets: np.ndarray) -> Weights:
-        """Learn from distances (n, 2·n_labels) of clips whose labels are ``targets`` (n,), all labels among them."""
-        model = LogisticRegression(C=STRENGTH, max_iter=5000, tol=1e-3).fit(nearness(distances), targets)
-        coefficients, offsets = model.coef_, model.intercept_
-        if len(coefficients) == 1:  # two labels share one row
-            coefficients, offsets = np.vstack([-coefficients, coefficients]) / 2, np.append(-offsets, offsets) / 2
-        return cls(coefficients, offsets)
+    def fit(cls, distances: np.ndarray, targets: np.ndarray, n_labels: int) -> Weights:
+        """Learn from distances (n, 2·n_labels + n_kinds) of clips of labels ``targets`` (n,), all labels among them."""
+        labels, every = nearness(distances, n_labels)
+        linear = LogisticRegression(C=STRENGTH, max_iter=5000, tol=1e-3)
+        network = MLPClassifier((HIDDEN,), alpha=DECAY, max_iter=ROUNDS, random_state=0)
+        mean, spread = labels.mean(axis=0), labels.std(axis=0) + 1e-6
+        linear.fit((labels - mean) / spread, targets)
+        coefficients, offsets = _two_sided(linear.coef_.T / spread[:, None], linear.intercept_)
+        offsets = offsets - mean @ coefficients
+        mean, spread = every.mean(axis=0), every.std(axis=0) + 1e-6
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ConvergenceWarning)  # it is stopped early on purpose
+            network.fit(((every - mean) / spread).astype(np.float32), targets)
+        hidden = network.coefs_[0] / spread[:, None]
+        hidden_offsets = network.intercepts_[0] - mean @ hidden
+        output = _two_sided(network.coefs_[1], network.intercepts_[1])
+        return cls(coefficients.T, offsets, Network(hidden, hidden_offsets, *output))
+
+    @property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """All weights by name, to be stored."""
+        network = {} if self.network is None else dataclasses.asdict(self.network)
+        return {"coefficients": self.coefficients, "offsets": self.offsets, **network}
+
+    @classmethod
+    def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Weights:
+        """Return the weights whose :attr:`arrays` were stored."""
+        names = [field.name for field in dataclasses.fields(Network)]
+        network = Network(*(arrays[name] for name in names)) if names[0] in arrays else None
+        return cls(arrays["coefficients"], arrays["offsets"], network)
 
     def shares(self, distances: np.ndarray, allowed: np.ndarray) -> np.ndarray:
         """Return each label's share (n_labels,) of the votes, 0 where not ``allowed``."""
-        logits = self.coefficients @ nearness(distances[None])[0] + self.offsets
+        labels, every = nearness(distances[None], len(self.offsets))
+        logits = labels[0] @ self.coefficients.T + self.offsets
+        if self.network is not None:
+            logits = (logits + self.network.logits(every)[0]) / 2
         votes = np.where(allowed, np.exp(logits - logits[allowed].max()), 0.0)
         return votes / votes.sum()
 
 
-def nearness(distances: np.ndarray) -> np.ndarray:
-    """Minus the logarithm of distances (n, d), from their mean: twice as far from all is the same."""
+def _two_sided(weights: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Weights (d, n_labels) and offsets; two labels share one column, which is given to both."""
+    if weights.shape[1] > 1:
+        return weights, offsets
+    return np.hstack([-weights, weights]) / 2, np.append(-offsets, offsets) / 2
+
+
+def nearness(distances: np.ndarray, n_labels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Inputs of the linear weights and of the network: minus the logarithm of distances, from their mean.
+
+    Args:
+        distances: (n, 2·n_labels + n_kinds).
+        n_labels: number of labels.
+
+    Returns:
+        of the labels and the nearest kind, then the mean itself; and the same with all kinds.
+    """
     logs = -np.log(np.clip(distances, 1e-6, np.exp(FARTHEST)))
-    out: np.ndarray = logs - logs.mean(axis=1, keepdims=True)
-    return out
+    labels, kinds = np.split(logs, [2 * n_labels], axis=1)
+    if kinds.shape[1]:
+        labels = np.column_stack([labels, kinds.max(axis=1)])
+    mean = labels.mean(axis=1, keepdims=True)
+    return np.hstack([labels - mean, mean]), np.hstack([labels - mean, kinds - mean, mean])

@@ -213,6 +213,7 @@ def photo_row(file: str, photo: Photo) -> dict[str, Any]:
         "tempo": 0.0,
         "size": 0.0,
         "cycles": 0,
+        "underway": False,
     }
 
 
@@ -238,6 +239,7 @@ def shot_row(file: str, shot: Shot) -> dict[str, Any]:
         "tempo": round(performance.tempo, 3),
         "size": round(performance.size, 3),
         "cycles": performance.cycles,
+        "underway": performance.underway,
     }
 
 

@@ -51,6 +51,12 @@ class Motion:
     weight: float
     vary: Mapping[str, Any]
 
+    @property
+    def repeated(self) -> int | None:
+        """Number of the step that goes to and fro, from 0; None where nothing does."""
+        steps = enumerate(self.steps)
+        return next((k for k, step in steps if {"cycle", "about", "wander"} & step.keys()), None)
+
 
 @lru_cache
 def tables() -> dict[str, Any]:

@@ -37,6 +37,7 @@ class Performance:
         base: angles (nq,) of this person standing at rest, rad and m.
         sway: joint index -> rows (amplitude, frequency in Hz, phase).
         walk: a crossing, or None.
+        underway: the clip begins and ends amid a repeated motion.
         lively: factor on what the rest of the body does.
     """
 
@@ -50,6 +51,7 @@ class Performance:
     base: Array
     sway: Mapping[int, Array]
     walk: Walk | None
+    underway: bool
     lively: float
     stature: float
 
@@ -124,6 +126,12 @@ def perform(
     plan = _fitting(wanted, lambda: Plan(motion, person, rng, half_width))
     seconds = max(wanted, plan.now + 0.25)
     lead = (seconds - plan.now) * rng.uniform(0.1, 0.9)
+    cut = rng.spawn(1)[0]  # a stream of its own: the other clips stay as they are
+    underway = motion.repeated is not None and cut.random() < tables()["underway"]["share"]
+    if underway:
+        seconds = wanted
+        plan = Plan(motion, person, cut, half_width, underway=seconds)
+        lead = (seconds - plan.now) * cut.random()
     return Performance(
         label=motion.label,
         action=motion.action,
@@ -135,6 +143,7 @@ def perform(
         base=plan.base,
         sway=sway_of_clip(rng, restless),
         walk=None if plan.walk is None else plan.walk.delayed(lead),
+        underway=underway,
         lively=person.liveliness,
         stature=person.stature,
     )

@@ -33,9 +33,14 @@ class Plan:
         cycles: how many times round a cycle goes.
         now: how long the try takes, s.
         walk: a walk, or None.
+
+    Args:
+        underway: seconds in which nothing but the motion's repeated step is to be seen; None for the whole motion.
     """
 
-    def __init__(self, motion: Motion, person: Person, rng: Generator, half_width: float) -> None:
+    def __init__(
+        self, motion: Motion, person: Person, rng: Generator, half_width: float, underway: float | None = None
+    ) -> None:
         self.motion, self.person, self.rng = motion, person, rng
         self.tempo = float(np.exp(rng.uniform(*np.log(TEMPO))))
         self.size = float(np.exp(rng.uniform(*np.log(SIZE))))
@@ -47,8 +52,20 @@ class Plan:
         self.walk: Walk | None = None
         self.strokes: list[Stroke] = []
         self.at = self._pose(motion.start)
+        if underway is not None:
+            self._repeat(underway)
+            return
         for k, step in enumerate(motion.steps):
             self._step(step, first=k == 0, half_width=half_width)
+
+    def _repeat(self, seconds: float) -> None:
+        """The repeated step alone, from the pose before it, as often as ``seconds`` need."""
+        k = self.motion.repeated
+        assert k is not None
+        if k and "to" in self.motion.steps[k - 1]:
+            self.at = self._pose(self.motion.steps[k - 1]["to"])
+        while self.now < seconds + 0.5:
+            self._step(self.motion.steps[k], first=False, half_width=0.0)
 
     def placed(self, lead: float, seconds: float) -> tuple[Stroke, ...]:
         """The strokes, beginning ``lead`` seconds after a clip of ``seconds`` does."""
@@ -95,9 +112,10 @@ class Plan:
     def _cycle(self, turns: Sequence[Array], offset: Array, step: Mapping[str, Any]) -> None:
         """Strokes to the ``turns`` in turn, which are sized about their middle and die down a little."""
         middle = np.mean(turns, axis=0)
-        self.cycles = int(self.rng.integers(step["count"][0], step["count"][1] + 1))
+        cycles = int(self.rng.integers(step["count"][0], step["count"][1] + 1))
+        self.cycles += cycles
         seconds, decay = self._seconds(step), self.rng.uniform(0.88, 1.02)
-        for cycle in range(self.cycles):
+        for cycle in range(cycles):
             fade = self.rng.uniform(0.85, 1.1) * decay**cycle
             for turn in turns:
                 target = middle + (turn - middle) * self.size * fade + offset

@@ -80,11 +80,12 @@ def _plain_room(table: dict[str, Any], rng: Generator) -> list[Item]:
 
 
 def _suits(shot: Shot, table: dict[str, Any]) -> bool:
-    """Whether the take is as long as a sample, its person large enough, and head and hands stay in the picture."""
+    """Whether the take is whole and of a sample's length, its person large, and head and hands stay in the picture."""
     shortest, longest = table["seconds"]
     top = shot.camera.project(np.array([0.0, 0.0, shot.person.stature]))
     foot = shot.camera.project(np.zeros(3))
-    if not shortest <= shot.performance.seconds <= longest or top[1] - foot[1] < 2 * table["fill"]:
+    whole = shortest <= shot.performance.seconds <= longest and not shot.performance.underway
+    if not whole or top[1] - foot[1] < 2 * table["fill"]:
         return False
     shown = np.abs(shot.camera.project(head_and_hands(shot))) <= (shot.width / shot.height, 1.0)
     if shot.performance.walk is not None:  # comes in and goes out at the sides
