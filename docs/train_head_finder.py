@@ -1,9 +1,10 @@
 """Learn how heads are found and fitted anew: ``MUJOCO_GL=egl python docs/train_head_finder.py SET [SET …]``.
 
 Each SET is a folder that ``nao-sim film`` made; its shots are staged again to see where the heads are. The shipped
-weights were learned with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2 --irrelevant 400
---seed 7 --restless 0.3``, 1,438 clips (who walks is left out); these persons take no part in the database and its
-figures.
+templates and fit were learned with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2
+--irrelevant 400 --seed 7 --restless 0.3``, 1,438 clips (who walks is left out). The ranking was learned afterwards with
+``--ranking --first 40 --persons 80 --every 1`` on ``nao-sim film --out SET --persons 120 --takes 1 --irrelevant 1200
+--seed 7``, HOWMANY clips of other persons. None of all these takes part in the database and its figures.
 """
 
 from __future__ import annotations
@@ -12,16 +13,17 @@ import argparse
 from pathlib import Path
 
 from nao_sim.people.heads import heads_of_film
-from recognizer.finder_training import train
+from recognizer.finder_training import train, train_ranking
 from recognizer.known_heads import KnownHead
+from recognizer.ranking import FILE
 
 
-def known_heads(folder: Path, persons: int) -> list[KnownHead]:
-    """Heads in the film of the first persons that are in view from the beginning; who walks may not be."""
+def known_heads(folder: Path, persons: range) -> list[KnownHead]:
+    """Heads in the film of some persons that are in view from the beginning; who walks may not be."""
     return [
         KnownHead(folder / row["file"], f"{folder}/{row['person']}", track)
         for row, track in heads_of_film(folder)
-        if int(row["person"][1:]) < persons and not row["label"].startswith("walk")
+        if int(row["person"][1:]) in persons and not row["label"].startswith("walk")
         if 0 < track[0, 0] < row["width"] / row["height"] and 0 < track[0, 1] < 1
     ]
 
@@ -30,12 +32,18 @@ def main() -> None:
     """Stage the sets again and train."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("sets", nargs="+", type=Path)
-    parser.add_argument("--persons", type=int, default=12, help="use the first so many of each set")
+    parser.add_argument("--persons", type=int, default=12, help="use so many of each set")
+    parser.add_argument("--first", type=int, default=0, help="number of the first of them")
+    parser.add_argument("--ranking", action="store_true", help="learn to choose among candidates, nothing else")
     parser.add_argument("--every", type=int, default=2, help="use one clip of so many")
-    parser.add_argument("--out", type=Path, default=Path("recognizer"), help="folder of the two files of weights")
+    parser.add_argument("--out", type=Path, default=Path("recognizer"), help="folder of the files of weights")
     asked = parser.parse_args()
-    heads = [head for folder in asked.sets for head in known_heads(folder, asked.persons)[:: asked.every]]
+    persons = range(asked.first, asked.first + asked.persons)
+    heads = [head for folder in asked.sets for head in known_heads(folder, persons)[:: asked.every]]
     print(f"{len(heads)} clips with known heads")
+    if asked.ranking:
+        train_ranking(heads).save(asked.out / FILE)
+        return
     train(heads, asked.out / "head_shoulders.npz", asked.out / "head_fit.npz")
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from recognizer.finder import Body, best_bodies, closer_look, closer_template, ranking, score_maps, template
+from recognizer.finder import Body, best_bodies, closer_look, closer_template, score_maps, template
 from recognizer.head_fit import fit, fit_weights, moved
+from recognizer.ranking import Ranking
 from recognizer.samples import Sample
 
 OBSERVED = (1, 8, 16, 26, 36, 46, 56)  # samples on which the template is tried, until the person is found
@@ -73,8 +74,7 @@ class BodyFinder:
             candidates, table = self.candidates()
             if not candidates:
                 raise ValueError("no sample was observed")
-            weights, offset = ranking()
-            scores = table @ weights + offset
+            scores = Ranking.load()(table)
             best = int(np.argmax(scores))
             self.body = self._exact(_mean_body(candidates, scores, best))
             self._pictures.clear()

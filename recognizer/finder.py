@@ -106,9 +106,7 @@ def pyramid(grey: np.ndarray) -> list[tuple[float, np.ndarray]]:
 @functools.cache
 def _stored() -> dict[str, np.ndarray]:
     with files("recognizer").joinpath(_WEIGHTS).open("rb") as file, np.load(file, allow_pickle=False) as stored:
-        return {
-            name: stored[name].astype(np.float64 if name.startswith("rank") else np.float32) for name in stored.files
-        }
+        return {name: stored[name].astype(np.float32) for name in stored.files}
 
 
 def template() -> tuple[np.ndarray, float]:
@@ -119,11 +117,6 @@ def template() -> tuple[np.ndarray, float]:
 def closer_template() -> tuple[np.ndarray, float]:
     """Return the weights (2800,) of the closer look and their offset."""
     return _stored()["fine_weights"].ravel(), float(_stored()["fine_offset"])
-
-
-def ranking() -> tuple[np.ndarray, float]:
-    """Return the shipped weights that choose among candidates, and their offset."""
-    return _stored()["rank_weights"], float(_stored()["rank_offset"])
 
 
 def score_maps(grey: np.ndarray, weights: np.ndarray, offset: float) -> list[tuple[float, np.ndarray]]:

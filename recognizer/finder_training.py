@@ -1,7 +1,8 @@
 """How the head-and-shoulders templates of :mod:`recognizer.finder` are learned from pictures with known heads.
 
 Small linear steps, minutes on a laptop: a coarse template against the backgrounds it mistakes for people, the fit of
-the exact place, a finer template against the coarse one's mistakes, and weights that choose among a clip's candidates.
+the exact place, a finer template against the coarse one's mistakes; then, from clips of other persons, weights that
+choose among a clip's candidates.
 """
 
 from __future__ import annotations
@@ -11,9 +12,6 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from sklearn.linear_model import LogisticRegression
-from sklearn.pipeline import make_pipeline
-from sklearn.preprocessing import StandardScaler
 
 from recognizer import finder
 from recognizer.body import BodyFinder
@@ -22,6 +20,7 @@ from recognizer.finder import CELL, CHANNELS, HEAD, HEAD_AT, TALL, WIDE, Body
 from recognizer.head_fit import moved
 from recognizer.head_fit_training import learn_fit, save_fit
 from recognizer.known_heads import KnownHead, Picture, pictures_of
+from recognizer.ranking import Ranking
 from recognizer.samples import Sampler
 
 COARSE_RIDGE, FINE_RIDGE = 30.0, 150.0
@@ -46,18 +45,25 @@ def train(heads: Sequence[KnownHead], out: Path, fit: Path, seed: int = 0, tell:
     steps = learn_fit([picture for known in heads for picture in pictures_of(known)], rng, tell)
     save_fit(steps, fit)
     clips = [_candidates(known, coarse, steps[0]) for known in heads]
-    right = np.concatenate([clip[3] for clip in clips])
-    groups = np.concatenate([[known.group] * len(clip[0]) for known, clip in zip(heads, clips, strict=True)])
-    table, cells = np.concatenate([clip[1] for clip in clips]), np.concatenate([clip[2] for clip in clips])
+    cells, right = (np.concatenate(parts) for parts in zip(*clips, strict=True))
     tell(f"{len(right)} candidates, {int(right.sum())} of them heads")
-    closer, fine = _fine(cells, right, groups)
-    ranking = _ranking(table, closer, right, np.concatenate([[i] * len(clip[0]) for i, clip in enumerate(clips)]))
+    fine = balanced_ridge(cells.astype(np.float32), right, FINE_RIDGE)
     np.savez_compressed(
         out,
         weights=coarse[0].astype(np.float16), offset=np.float32(coarse[1]),
         fine_weights=fine[0].astype(np.float16), fine_offset=np.float32(fine[1]),
-        rank_weights=ranking[0], rank_offset=np.float64(ranking[1]),
     )  # fmt: skip
+
+
+def train_ranking(heads: Sequence[KnownHead], tell: Callable[[str], None] = print) -> Ranking:
+    """Learn to choose among candidates of the shipped templates, which must not know these persons."""
+    tables, rights = [], []
+    for known in heads:
+        observer = BodyFinder()
+        rights.append(_observe(observer, known))
+        tables.append(observer.candidates()[1])
+    tell(f"{sum(len(right) for right in rights)} candidates, {sum(int(right.sum()) for right in rights)} of them heads")
+    return Ranking.fit(np.concatenate(tables), np.concatenate(rights))
 
 
 def balanced_ridge(X: np.ndarray, positive: np.ndarray, ridge: float) -> Weights:
@@ -165,41 +171,26 @@ class _Collector(BodyFinder):
         return self.body
 
 
-def _candidates(known: KnownHead, coarse: Weights, step: Step) -> tuple[list[Body], np.ndarray, np.ndarray, np.ndarray]:
-    """Candidates of a clip, what is known of each, what the closer look sees, and which are the head."""
+def _candidates(known: KnownHead, coarse: Weights, step: Step) -> tuple[np.ndarray, np.ndarray]:
+    """What the closer look sees of a clip's candidates (n, d), and which of them are the head (n,)."""
+    collector = _Collector(coarse, step)
+    right = _observe(collector, known)
+    return np.concatenate(collector.cells).astype(np.float16), right
+
+
+def _observe(observer: BodyFinder, known: KnownHead) -> np.ndarray:
+    """Show a clip to a finder until it has decided; return which of its candidates are the head."""
     clip = open_clip(known.path)
-    sampler, collector = Sampler(clip.fps), _Collector(coarse, step)
+    sampler = Sampler(clip.fps)
     for frame in clip:
         sample = sampler.push(frame)
         if sample is not None:
-            collector.observe(sample)
-    bodies, table = collector.candidates()
+            observer.observe(sample)
+    observer.decide()
     samples = list(sampler.samples)
-    true = [known.body(samples[number].index, samples[0].grey.shape[0]) for number in collector.searched()]
-    right = [
+    true = [known.body(samples[number].index, samples[0].grey.shape[0]) for number in observer.searched()]
+    near = [
         np.hypot(b.x - t.x, b.y - t.y) < 0.35 * t.head and abs(np.log(b.head / t.head)) < 0.25
-        for b, t in zip(bodies, true, strict=True)
+        for b, t in zip(observer.candidates()[0], true, strict=True)
     ]
-    return bodies, table[:, : table.shape[1] // 2], np.concatenate(collector.cells).astype(np.float16), np.array(right)
-
-
-def _fine(cells: np.ndarray, right: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, Weights]:
-    """Scores of the closer look, each by weights that did not see that person, and the weights of all."""
-    scores = np.zeros(len(cells))
-    persons = np.unique(groups)
-    for half in (persons[::2], persons[1::2]):
-        test = np.isin(groups, half)
-        weights, offset = balanced_ridge(cells[~test].astype(np.float32), right[~test], FINE_RIDGE)
-        scores[test] = cells[test].astype(np.float32) @ weights + offset
-    return scores, balanced_ridge(cells.astype(np.float32), right, FINE_RIDGE)
-
-
-def _ranking(table: np.ndarray, closer: np.ndarray, right: np.ndarray, clip: np.ndarray) -> Weights:
-    table = np.column_stack([table[:, :-1], closer])
-    relative = table.copy()
-    for number in np.unique(clip):
-        relative[clip == number] -= table[clip == number].max(axis=0)
-    model = make_pipeline(StandardScaler(), LogisticRegression(max_iter=2000)).fit(np.hstack([table, relative]), right)
-    scaler, logistic = model[0], model[-1]
-    weights = logistic.coef_[0] / scaler.scale_
-    return weights, float(logistic.intercept_[0] - scaler.mean_ @ weights)
+    return np.array(near)
