@@ -105,6 +105,7 @@ def perform(
     half_width: float,
     action: str | None = None,
     restless: float | None = None,
+    underway: float | None = None,
 ) -> Performance:
     """Draw a performance of ``label``.
 
@@ -118,6 +119,7 @@ def perform(
         half_width: half of the width (m) the camera sees at the person, for those who cross it.
         action: one irrelevant motion by name; by weight when None.
         restless: share of performances by people who cannot keep still; as in the motion file when None.
+        underway: share of performances of a repeated motion that begin and end amid it; as in the file when None.
     """
     ways = [m for m in motions()[label] if action in (None, m.action)]
     weight = np.array([m.weight for m in ways])
@@ -127,8 +129,9 @@ def perform(
     seconds = max(wanted, plan.now + 0.25)
     lead = (seconds - plan.now) * rng.uniform(0.1, 0.9)
     cut = rng.spawn(1)[0]  # a stream of its own: the other clips stay as they are
-    underway = motion.repeated is not None and cut.random() < tables()["underway"]["share"]
-    if underway:
+    share = tables()["underway"]["share"] if underway is None else underway
+    amid = motion.repeated is not None and bool(cut.random() < share)
+    if amid:
         seconds = wanted
         plan = Plan(motion, person, cut, half_width, underway=seconds)
         lead = (seconds - plan.now) * cut.random()
@@ -143,7 +146,7 @@ def perform(
         base=plan.base,
         sway=sway_of_clip(rng, restless),
         walk=None if plan.walk is None else plan.walk.delayed(lead),
-        underway=underway,
+        underway=amid,
         lively=person.liveliness,
         stature=person.stature,
     )

@@ -30,7 +30,36 @@ def track(performance, body, count=60):
 
 
 def performances(label, count=6, **more):
-    return [perform(label, CAST[k % 6], np.random.default_rng([k, 3]), 1.0, **more) for k in range(count)]
+    """By default of whole motions."""
+    whole = {"underway": 0.0} | more
+    return [perform(label, CAST[k % 6], np.random.default_rng([k, 3]), 1.0, **whole) for k in range(count)]
+
+
+def test_a_wave_underway_is_seen_with_the_arm_up_throughout():
+    for done in performances("bye_right", 12, underway=1.0):
+        hand, elbow = track(done, "r_middle_1")[:, 2], track(done, "r_forearm")[:, 2]
+        assert done.underway
+        assert hand.min() > elbow.max() - 0.1
+        assert CLIP_SECONDS[0] <= done.seconds <= CLIP_SECONDS[1]
+
+
+def test_a_motion_underway_goes_on_at_both_ends_of_the_clip():
+    for done in performances("no", 8, underway=1.0, restless=0.0):
+        turn = done.angles(np.linspace(0, done.seconds, 200))[:, joints()["head_yaw"]]
+        turn = turn - turn.mean()
+        quarter = len(turn) // 4
+        assert np.ptp(turn[:quarter]) > 0.4 * np.ptp(turn)
+        assert np.ptp(turn[-quarter:]) > 0.4 * np.ptp(turn)
+
+
+def test_what_is_not_repeated_is_never_underway_and_the_rest_stays_as_it_was():
+    assert not any(done.underway for done in performances("stop", underway=1.0))
+    drawn = performances("yes", 40, underway=None)
+    assert 0 < sum(done.underway for done in drawn) < 20
+    for one, other in zip(drawn, performances("yes", 40), strict=True):
+        if not one.underway:
+            times = np.linspace(0, one.seconds, 5)
+            np.testing.assert_array_equal(one.angles(times), other.angles(times))
 
 
 def test_who_cannot_keep_still_sways_more_and_stands_on_the_same_feet():
