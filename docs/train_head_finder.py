@@ -4,7 +4,7 @@ Each SET is a folder that ``nao-sim film`` made; its shots are staged again to s
 templates and fit were learned with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2
 --irrelevant 400 --seed 7 --restless 0.3``, 1,438 clips (who walks is left out). The ranking was learned afterwards with
 ``--ranking --first 40 --persons 80 --every 1`` on ``nao-sim film --out SET --persons 120 --takes 1 --irrelevant 1200
---seed 7``, HOWMANY clips of other persons. None of all these takes part in the database and its figures.
+--seed 7``, 1,838 clips of other persons. None of all these takes part in the database and its figures.
 """
 
 from __future__ import annotations

@@ -59,8 +59,8 @@ def train_ranking(heads: Sequence[KnownHead], tell: Callable[[str], None] = prin
     """Learn to choose among candidates of the shipped templates, which must not know these persons."""
     tables, rights = [], []
     for known in heads:
-        observer = BodyFinder()
-        rights.append(_observe(observer, known))
+        observer = _Observer()
+        rights.append(observer.watch(known))
         tables.append(observer.candidates()[1])
     tell(f"{sum(len(right) for right in rights)} candidates, {sum(int(right.sum()) for right in rights)} of them heads")
     return Ranking.fit(np.concatenate(tables), np.concatenate(rights))
@@ -150,8 +150,33 @@ def _patch(level: np.ndarray, row: int, column: int) -> np.ndarray:
     return out.ravel()
 
 
-class _Collector(BodyFinder):
-    """A finder with weights in training that keeps what the closer look would see."""
+class _Observer(BodyFinder):
+    """A finder that only collects candidates; which of them is right is known already."""
+
+    def decide(self) -> Body:
+        """Stop searching."""
+        self.body = Body(0, 0, 1, 0)
+        return self.body
+
+    def watch(self, known: KnownHead) -> np.ndarray:
+        """Look at a clip until a finder would decide; return which candidates are the head, (n,) bool."""
+        clip = open_clip(known.path)
+        sampler = Sampler(clip.fps)
+        for frame in clip:
+            sample = sampler.push(frame)
+            if sample is not None:
+                self.observe(sample)
+        samples = list(sampler.samples)
+        true = [known.body(samples[number].index, samples[0].grey.shape[0]) for number in self.searched()]
+        right = [
+            np.hypot(b.x - t.x, b.y - t.y) < 0.35 * t.head and abs(np.log(b.head / t.head)) < 0.25
+            for b, t in zip(self.candidates()[0], true, strict=True)
+        ]
+        return np.array(right)
+
+
+class _Collector(_Observer):
+    """An observer with weights in training that keeps what the closer look would see."""
 
     def __init__(self, coarse: Weights, step: Step) -> None:
         super().__init__()
@@ -165,32 +190,9 @@ class _Collector(BodyFinder):
         self.cells.append(finder.closer_look(grey, found))
         return moved(found, self.cells[-1], *self.step), np.zeros(len(found))
 
-    def decide(self) -> Body:
-        """Stop searching; which candidate is right is known already."""
-        self.body = Body(0, 0, 1, 0)
-        return self.body
-
 
 def _candidates(known: KnownHead, coarse: Weights, step: Step) -> tuple[np.ndarray, np.ndarray]:
     """What the closer look sees of a clip's candidates (n, d), and which of them are the head (n,)."""
     collector = _Collector(coarse, step)
-    right = _observe(collector, known)
+    right = collector.watch(known)
     return np.concatenate(collector.cells).astype(np.float16), right
-
-
-def _observe(observer: BodyFinder, known: KnownHead) -> np.ndarray:
-    """Show a clip to a finder until it has decided; return which of its candidates are the head."""
-    clip = open_clip(known.path)
-    sampler = Sampler(clip.fps)
-    for frame in clip:
-        sample = sampler.push(frame)
-        if sample is not None:
-            observer.observe(sample)
-    observer.decide()
-    samples = list(sampler.samples)
-    true = [known.body(samples[number].index, samples[0].grey.shape[0]) for number in observer.searched()]
-    near = [
-        np.hypot(b.x - t.x, b.y - t.y) < 0.35 * t.head and abs(np.log(b.head / t.head)) < 0.25
-        for b, t in zip(observer.candidates()[0], true, strict=True)
-    ]
-    return np.array(near)
