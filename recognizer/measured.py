@@ -50,15 +50,9 @@ class MeasuredRows:
         self.rows = rows.take(order)
         self._projected = projected[order]
         self._squares = np.einsum("nc,nc->n", self._projected, self._projected)
-        self.labels, first, counts = np.unique(self.rows.labels, return_index=True, return_counts=True)
-        self.rows_of = [slice(start, start + count) for start, count in zip(first, counts, strict=True)]
+        self.labels, self.rows_of = _slices(self.rows.labels)
         irrelevant = np.flatnonzero(self.rows.labels == IRRELEVANT)
-        actions = self.rows.actions[irrelevant]
-        self.kinds, first, self._of_kind = np.unique(actions, return_index=True, return_counts=True)
-        # Rows of each kind (n_kinds, largest); the shorter ones repeat their last, which does not count.
-        place = np.arange(self._of_kind.max(initial=0))
-        self._kind_rows = irrelevant[first[:, None] + np.minimum(place, self._of_kind[:, None] - 1)]
-        self._no_row = place >= self._of_kind[:, None]
+        self.kinds, self._rows_of_kind = _slices(self.rows.actions[irrelevant], irrelevant.min(initial=len(order)))
 
     def project(self, vectors: np.ndarray) -> np.ndarray:
         """Bring feature vectors (n, d) into the metric, (n, c) float32."""
@@ -83,18 +77,13 @@ class MeasuredRows:
         labels = len(self.labels)
         out = np.empty((len(distances), 2 * labels + len(self.kinds)))
         for target, rows in enumerate(self.rows_of):
-            own = distances[:, rows]
-            wide = min(WIDER * k, own.shape[1])
-            nearest = np.sort(np.partition(own, wide - 1, axis=1)[:, :wide], axis=1)
-            out[:, target] = nearest[:, :k].sum(axis=1) / min(k, wide)
-            out[:, labels + target] = nearest.sum(axis=1) / wide
-        if len(self.kinds):
-            own = distances[:, self._kind_rows]
-            own[:, self._no_row] = np.inf
-            few = min(k, own.shape[2])
-            nearest = np.partition(own, few - 1, axis=2)[:, :, :few]
-            nearest[np.isinf(nearest)] = 0
-            out[:, 2 * labels :] = nearest.sum(axis=2) / np.minimum(few, self._of_kind)
+            nearest = _nearest(distances[:, rows], WIDER * k)
+            nearest.sort(axis=1)
+            out[:, target] = nearest[:, :k].sum(axis=1) / min(k, nearest.shape[1])
+            out[:, labels + target] = nearest.sum(axis=1) / nearest.shape[1]
+        for target, rows in enumerate(self._rows_of_kind):
+            nearest = _nearest(distances[:, rows], k)
+            out[:, 2 * labels + target] = nearest.sum(axis=1) / nearest.shape[1]
         return out
 
     def distances_as(self, other: MeasuredRows, vectors: np.ndarray, k: int) -> np.ndarray:
@@ -121,3 +110,16 @@ class MeasuredRows:
         """What irrelevant motion the nearest irrelevant row shows."""
         rows = self.rows_of[int(np.searchsorted(self.labels, IRRELEVANT))]
         return str(self.rows.actions[rows.start + int(np.argmin(distances[rows]))])
+
+
+def _slices(names: np.ndarray, start: int = 0) -> tuple[np.ndarray, list[slice]]:
+    """The names that occur, and the places of each, from ``start`` on; equal names stand together."""
+    found, first, counts = np.unique(names, return_index=True, return_counts=True)
+    return found, [slice(start + i, start + i + n) for i, n in zip(first.tolist(), counts.tolist(), strict=True)]
+
+
+def _nearest(distances: np.ndarray, count: int) -> np.ndarray:
+    """The ``count`` smallest of each row (n, m), or all m, in no order."""
+    count = min(count, distances.shape[1])
+    smallest: np.ndarray = np.partition(distances, count - 1, axis=1)[:, :count]
+    return smallest

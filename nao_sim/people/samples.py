@@ -55,7 +55,7 @@ def sample_shot(label: str, take: int | None = None) -> Shot:
     person = _person(table, label)
     first = table["take"].get(label, 0) if take is None else take
     for number in range(first, first + 400):
-        shot = draw_shot(table["seed"], label, person, number, restless=0.0)
+        shot = draw_shot(table["seed"], label, person, number, restless=0.0, underway=0.0)
         shot = replace(shot, width=table["width"], height=table["height"])
         if _suits(shot, table):
             break
@@ -80,12 +80,11 @@ def _plain_room(table: dict[str, Any], rng: Generator) -> list[Item]:
 
 
 def _suits(shot: Shot, table: dict[str, Any]) -> bool:
-    """Whether the take is whole and of a sample's length, its person large, and head and hands stay in the picture."""
+    """Whether the take is as long as a sample, its person large enough, and head and hands stay in the picture."""
     shortest, longest = table["seconds"]
     top = shot.camera.project(np.array([0.0, 0.0, shot.person.stature]))
     foot = shot.camera.project(np.zeros(3))
-    whole = shortest <= shot.performance.seconds <= longest and not shot.performance.underway
-    if not whole or top[1] - foot[1] < 2 * table["fill"]:
+    if not shortest <= shot.performance.seconds <= longest or top[1] - foot[1] < 2 * table["fill"]:
         return False
     shown = np.abs(shot.camera.project(head_and_hands(shot))) <= (shot.width / shot.height, 1.0)
     if shot.performance.walk is not None:  # comes in and goes out at the sides

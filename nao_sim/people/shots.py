@@ -76,9 +76,15 @@ def generator(seed: int, label: str, person: str, take: int, use: str) -> Genera
 
 
 def draw_shot(
-    seed: int, label: str, person: Person, take: int, action: str | None = None, restless: float | None = None
+    seed: int,
+    label: str,
+    person: Person,
+    take: int,
+    action: str | None = None,
+    restless: float | None = None,
+    underway: float | None = None,
 ) -> Shot:
-    """Draw the clip ``take`` of ``person`` performing ``label``; the last two are those of :func:`perform`."""
+    """Draw the clip ``take`` of ``person`` performing ``label``; the last three are those of :func:`perform`."""
     table = cameras()
     rng = generator(seed, label, person.name, take, "scene")
     width, height, _ = weighted(table["sizes"], rng)
@@ -94,7 +100,7 @@ def draw_shot(
         camera=camera,
         light=draw_light(rng),
         sensor=Sensor.draw(table["sensor"], rng),
-        performance=perform(label, person, acting, half_width, action, restless),
+        performance=perform(label, person, acting, half_width, action, restless, underway),
         width=int(width),
         height=int(height),
         fps=fps,

@@ -9,6 +9,10 @@ from nao_sim.people.heads import head_track, heads_of_film
 from nao_sim.people.samples import sample_shot
 from nao_sim.resources import resource
 from recognizer import open_clip
+from recognizer.body import BodyFinder
+from recognizer.finder_training import train_ranking
+from recognizer.known_heads import KnownHead
+from recognizer.samples import Sampler
 from recognizer.track import track_clip
 
 
@@ -37,6 +41,26 @@ def test_a_film_is_staged_with_its_own_seed_and_restlessness(stage, tmp_path):
     assert len(track) == row["frames"]
     assert np.allclose(track, head_track(stage, jobs[0].shot()))
     assert row["restless"] == 1.0
+
+
+def test_the_ranking_is_learned_from_clips_with_known_heads(stage):
+    heads = []
+    for label in ("bye_right", "no", "kowtow"):
+        clip = resource("assets", "clips", f"{label}.avi")
+        heads.append(KnownHead(clip, label, head_track(stage, sample_shot(label))))
+    told = []
+    learnt = train_ranking(heads, told.append)
+    finder = BodyFinder()
+    sampler = Sampler(30.0)
+    for frame in open_clip(heads[0].path):
+        sample = sampler.push(frame)
+        if sample is not None:
+            finder.observe(sample)
+    candidates, table = finder.candidates()
+    best = candidates[int(np.argmax(learnt(table)))]
+    true = heads[0].body(0, sampler.samples[0].grey.shape[0])
+    assert np.hypot(best.x - true.x, best.y - true.y) < 0.35 * true.head
+    assert len(told) == 1
 
 
 @pytest.mark.parametrize("card", [None, "", "[]", '{"command": {"persons": 1, "seed": 6}}'])
