@@ -49,6 +49,10 @@ class Decision:
     votes: dict[str, float]
     neighbours: tuple[Neighbour, ...]
 
+    def rejected_for(self, reason: str) -> Decision:
+        """The same, but rejected whatever the neighbours say."""
+        return dataclasses.replace(self, label=None, rejected=True, reason=reason)
+
 
 def decide(
     database: Database,

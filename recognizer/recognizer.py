@@ -17,6 +17,7 @@ from recognizer.errors import ClipError, DatabaseError
 from recognizer.methods import method_of
 from recognizer.recognition import Evidence, Recognition
 from recognizer.samples import Sample
+from recognizer.scene import STILL
 from recognizer.segments import Segmenter
 from recognizer.track import MIN_SAMPLES, Track
 
@@ -164,6 +165,8 @@ class RecognizerStream:
         self.track.end()
         vector = self.recognizer.method.features(self.track)
         decision = self.recognizer.decide(vector, among)
+        if self.track.scene.still:
+            decision = decision.rejected_for(STILL)
         samples = self.track.samples
         body = self.track.body if self.recognizer.method.needs_body else None
         height, width = samples[0].grey.shape

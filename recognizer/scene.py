@@ -12,6 +12,7 @@ CUT_INTERSECTION = 0.6  # histograms of neighbouring samples agree less than thi
 CUT_DIFFERENCE = 25.0  # … where the pictures differ by as many grey levels in the mean, too
 MOVING_SIDES = 3  # of four image borders move when the camera does
 MOVING_SHARE = 0.3  # of all samples
+STILL = "nothing moves in this clip"
 
 
 class Scene:
@@ -39,11 +40,16 @@ class Scene:
         self._moving += regions.area > 0
         self._camera += regions.sides >= MOVING_SIDES
 
+    @property
+    def still(self) -> bool:
+        """Whether nothing has moved in any sample."""
+        return self._steps > 0 and not self._moving
+
     def warnings(self) -> tuple[str, ...]:
         """Return one line for each thing that makes the answer doubtful."""
         found = [f"the picture changes at once at {t:.1f} s: a cut? give one shot, with --frames" for t in self._cuts]
         if self._steps and self._camera > MOVING_SHARE * self._steps:
             found.append("the whole picture moves: film with a camera that stands still")
-        if self._steps and not self._moving:
-            found.append("nothing moves in this clip")
+        if self.still:
+            found.append(STILL)
         return tuple(found)

@@ -57,7 +57,7 @@ class Weights:
     @classmethod
     def plain(cls, n_labels: int, n_kinds: int, power: float) -> Weights:
         """Votes 1/dⁿ from the first distance of each label."""
-        coefficients = np.zeros((n_labels, 2 * n_labels + bool(n_kinds) + 1))
+        coefficients = np.zeros((n_labels, 2 * n_labels + bool(n_kinds)))
         coefficients[:, :n_labels] = power * np.eye(n_labels)
         return cls(coefficients, np.zeros(n_labels))
 
@@ -111,18 +111,18 @@ def _two_sided(weights: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np
 
 
 def nearness(distances: np.ndarray, n_labels: int) -> tuple[np.ndarray, np.ndarray]:
-    """Inputs of the linear weights and of the network: minus the logarithm of distances, from their mean.
+    """Minus the logarithm of distances, from its mean: twice as far from all is the same.
 
     Args:
         distances: (n, 2·n_labels + n_kinds).
         n_labels: number of labels.
 
     Returns:
-        of the labels and the nearest kind, then the mean itself; and the same with all kinds.
+        of the labels and the nearest kind, for the linear weights; of the labels and all kinds, for the network.
     """
     logs = -np.log(np.clip(distances, 1e-6, np.exp(FARTHEST)))
     labels, kinds = np.split(logs, [2 * n_labels], axis=1)
     if kinds.shape[1]:
         labels = np.column_stack([labels, kinds.max(axis=1)])
     mean = labels.mean(axis=1, keepdims=True)
-    return np.hstack([labels - mean, mean]), np.hstack([labels - mean, kinds - mean, mean])
+    return labels - mean, np.hstack([labels, kinds]) - mean
