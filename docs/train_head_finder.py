@@ -4,13 +4,16 @@ Each SET is a folder that ``nao-sim film`` made; its shots are staged again to s
 templates and fit were learned with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2
 --irrelevant 400 --seed 7 --restless 0.3``, 1,438 clips (who walks is left out). The ranking was learned afterwards with
 ``--ranking --first 40 --persons 80 --every 1`` on ``nao-sim film --out SET --persons 120 --takes 1 --irrelevant 1200
---seed 7``, 1,838 clips of other persons. None of all these takes part in the database and its figures.
+--seed 7``, 2,000 clips of other persons, walks included. None of all these takes part in the database and its figures.
 """
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from nao_sim.people.heads import heads_of_film
 from recognizer.finder_training import train, train_ranking
@@ -18,14 +21,18 @@ from recognizer.known_heads import KnownHead
 from recognizer.ranking import FILE
 
 
-def known_heads(folder: Path, persons: range) -> list[KnownHead]:
-    """Heads in the film of some persons that are in view from the beginning; who walks may not be."""
+def known_heads(folder: Path, persons: range, in_view: bool) -> list[KnownHead]:
+    """Heads in the film of some persons: of all clips, or of those where they are in view from the beginning."""
     return [
         KnownHead(folder / row["file"], f"{folder}/{row['person']}", track)
         for row, track in heads_of_film(folder)
-        if int(row["person"][1:]) in persons and not row["label"].startswith("walk")
-        if 0 < track[0, 0] < row["width"] / row["height"] and 0 < track[0, 1] < 1
+        if int(row["person"][1:]) in persons and not (in_view and _walks_in(row, track))
     ]
+
+
+def _walks_in(row: dict[str, Any], track: np.ndarray) -> bool:
+    seen = 0 < track[0, 0] < row["width"] / row["height"] and 0 < track[0, 1] < 1
+    return row["label"].startswith("walk") or not seen
 
 
 def main() -> None:
@@ -39,7 +46,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("recognizer"), help="folder of the files of weights")
     asked = parser.parse_args()
     persons = range(asked.first, asked.first + asked.persons)
-    heads = [head for folder in asked.sets for head in known_heads(folder, persons)[:: asked.every]]
+    heads = [head for folder in asked.sets for head in known_heads(folder, persons, not asked.ranking)[:: asked.every]]
     print(f"{len(heads)} clips with known heads")
     if asked.ranking:
         train_ranking(heads).save(asked.out / FILE)
