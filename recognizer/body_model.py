@@ -18,7 +18,8 @@ POWER = 2.0  # n of the votes 1/dⁿ where no weights could be learnt
 SHRINKAGE = 0.3
 FALSE_REJECTION = 0.03  # share of true gestures of unseen persons that the limit gives up
 NEVER_SEEN = 0.002  # share of them that is further from its gesture than anything answered
-LIMIT_FOLDS = 3  # of persons: limits are set on those whom the weights do not know
+MANY = 5000  # rows: from here on a network can be learnt beside the linear weights …
+LIMIT_FOLDS = 3  # … and so many folds of persons, whom the weights do not know, say what the limits are
 
 
 class BodyModel:
@@ -58,7 +59,7 @@ class BodyModel:
     def fit(self, database: Database) -> BodyModel:
         """Learn metric, weights and limits, or take them from the database where they are stored."""
         stored = database.arrays
-        if not {"components", "hidden"} <= stored.keys():
+        if not {"components", "linear"} <= stored.keys():  # nothing yet, or by a former version
             return self._learn(KnownRows(database), np.ones(len(database), bool))
         rows = database.rows.with_others(twins(database)) if database.mirror else database.rows
         metric = Metric(stored["mean"], stored["scale"], stored["components"].astype(np.float32))
@@ -110,20 +111,21 @@ class BodyModel:
             targets.append(np.searchsorted(labels, known.database.labels[unseen]))
             folds.append(np.full(len(features), number % LIMIT_FOLDS))
         found, true, fold = np.concatenate(distances), np.concatenate(targets), np.concatenate(folds)
-        self.weights_ = self._fitted(found, true)
+        many = len(true) >= MANY
+        if len(np.unique(true)) == len(labels):
+            self.weights_ = Weights.fit(found, true, len(labels), network=many)
         if not self._is_gesture.all():
-            self._set_limits(found, true, fold)
-
-    def _fitted(self, distances: np.ndarray, targets: np.ndarray) -> Weights:
-        """Weights from these distances, where every label is among the targets; else those there are."""
-        n_labels = len(self.measured_.labels)
-        return Weights.fit(distances, targets, n_labels) if len(np.unique(targets)) == n_labels else self.weights_
+            # Weights of a part of few rows are much less sure than those of all: their odds would say nothing.
+            self._set_limits(found, true, fold if many else np.zeros_like(fold))
 
     def _set_limits(self, distances: np.ndarray, targets: np.ndarray, folds: np.ndarray) -> None:
-        """Limits from gestures of the persons of each fold, weighed by what the other folds say."""
+        """Limits from gestures of the persons of each fold, weighed by what the other folds say, if there are any."""
         odds, near = [], []
+        n_labels = len(self.measured_.labels)
         for fold in np.unique(folds):
-            weights = self._fitted(distances[folds != fold], targets[folds != fold])
+            weights, others = self.weights_, folds != fold
+            if len(np.unique(targets[others])) == n_labels:
+                weights = Weights.fit(distances[others], targets[others], n_labels)
             for row in distances[(folds == fold) & self._is_gesture[targets]]:
                 winner, against, _ = self._winner(weights, row, self._is_gesture)
                 odds.append(against)

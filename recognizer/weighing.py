@@ -62,36 +62,41 @@ class Weights:
         return cls(coefficients, np.zeros(n_labels))
 
     @classmethod
-    def fit(cls, distances: np.ndarray, targets: np.ndarray, n_labels: int) -> Weights:
-        """Learn from distances (n, 2·n_labels + n_kinds) of clips of labels ``targets`` (n,), all labels among them."""
+    def fit(cls, distances: np.ndarray, targets: np.ndarray, n_labels: int, network: bool = True) -> Weights:
+        """Learn from distances (n, 2·n_labels + n_kinds) of clips of labels ``targets`` (n,), all labels among them.
+
+        Without ``network`` the linear weights stand alone.
+        """
         labels, every = nearness(distances, n_labels)
         linear = LogisticRegression(C=STRENGTH, max_iter=5000, tol=1e-3)
-        network = MLPClassifier((HIDDEN,), alpha=DECAY, max_iter=ROUNDS, random_state=0)
         mean, spread = labels.mean(axis=0), labels.std(axis=0) + 1e-6
         linear.fit((labels - mean) / spread, targets)
         coefficients, offsets = _two_sided(linear.coef_.T / spread[:, None], linear.intercept_)
         offsets = offsets - mean @ coefficients
+        if not network:
+            return cls(coefficients.T, offsets)
+        layers = MLPClassifier((HIDDEN,), alpha=DECAY, max_iter=ROUNDS, random_state=0)
         mean, spread = every.mean(axis=0), every.std(axis=0) + 1e-6
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ConvergenceWarning)  # it is stopped early on purpose
-            network.fit(((every - mean) / spread).astype(np.float32), targets)
-        hidden = network.coefs_[0] / spread[:, None]
-        hidden_offsets = network.intercepts_[0] - mean @ hidden
-        output = _two_sided(network.coefs_[1], network.intercepts_[1])
+            layers.fit(((every - mean) / spread).astype(np.float32), targets)
+        hidden = layers.coefs_[0] / spread[:, None]
+        hidden_offsets = layers.intercepts_[0] - mean @ hidden
+        output = _two_sided(layers.coefs_[1], layers.intercepts_[1])
         return cls(coefficients.T, offsets, Network(hidden, hidden_offsets, *output))
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
         """All weights by name, to be stored."""
         network = {} if self.network is None else dataclasses.asdict(self.network)
-        return {"coefficients": self.coefficients, "offsets": self.offsets, **network}
+        return {"linear": self.coefficients, "linear_offsets": self.offsets, **network}
 
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Weights:
         """Return the weights whose :attr:`arrays` were stored."""
         names = [field.name for field in dataclasses.fields(Network)]
         network = Network(*(arrays[name] for name in names)) if names[0] in arrays else None
-        return cls(arrays["coefficients"], arrays["offsets"], network)
+        return cls(arrays["linear"], arrays["linear_offsets"], network)
 
     def shares(self, distances: np.ndarray, allowed: np.ndarray) -> np.ndarray:
         """Return each label's share (n_labels,) of the votes, 0 where not ``allowed``."""

@@ -196,6 +196,23 @@ def test_evaluation_never_shows_a_person_to_its_judge(monkeypatch: pytest.Monkey
     assert counts.trace() == 16
 
 
+def test_what_a_former_version_learned_is_learned_anew(tmp_path: Path) -> None:
+    made = database(4)
+    learned = BodyModel().fit(made)
+    former = {k: v for k, v in learned.arrays.items() if not k.startswith("linear")} | {"coefficients": np.eye(3)}
+    dataclasses.replace(made, arrays=former).save(tmp_path / "former.parquet")
+    back = BodyModel().fit(Database.load(tmp_path / "former.parquet"))
+    assert back.limit_ == pytest.approx(learned.limit_, rel=0.05)
+
+
+@pytest.mark.parametrize(("persons", "network"), [(4, False), (12, True)])
+def test_few_rows_are_weighed_without_a_network(monkeypatch: pytest.MonkeyPatch, persons: int, network: bool) -> None:
+    monkeypatch.setattr("recognizer.body_model.MANY", 60)
+    model = BodyModel().fit(database(persons))
+    assert (model.weights_.network is not None) == network
+    assert np.isfinite(model.limit_)
+
+
 @pytest.mark.parametrize("protocol", ["k-fold", "loo-person"])
 def test_protocols(protocol: str) -> None:
     assert evaluate(database(3), protocol).score() > 0.9

@@ -112,5 +112,8 @@ def test_weights_are_stored_and_read_back() -> None:
     np.testing.assert_array_equal(
         back.shares(distances[0], np.ones(2, bool)), learnt.shares(distances[0], np.ones(2, bool))
     )
+    alone = Weights.fit(distances, targets, 2, network=False)
+    assert alone.network is None
+    np.testing.assert_array_equal(alone.coefficients, learnt.coefficients)
     plain = Weights.plain(2, 2, 2.0)
     assert Weights.of_arrays(plain.arrays).network is None
