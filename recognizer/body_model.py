@@ -25,10 +25,11 @@ LIMIT_FOLDS = 3  # … and so many folds of persons, whom the weights do not kno
 class BodyModel:
     """Weighed neighbours in a discriminant metric.
 
-    Every class is measured by the mean distance of its k and its 3k nearest rows, so that a class with many clips has
-    no more say than one with few; weights of these distances, learnt on persons whose rows were left out, give each
-    class its share. A gesture is rejected when irrelevant motion is too likely beside it, and when it is further
-    from its own rows than gestures of unseen persons are.
+    Every class, and every kind of irrelevant motion, is measured by the mean distance of its nearest rows, so that one
+    with many clips has no more say than one with few. Weights of these distances, and with many rows a small network
+    beside them (:mod:`recognizer.weighing`), are learnt on persons whose rows were left out, and give each class its
+    share. A gesture is rejected when irrelevant motion is too likely beside it, and when it is further from its own
+    rows than gestures of unseen persons are.
 
     Args:
         n_neighbors: k, rows of each class.

@@ -131,9 +131,12 @@ def film(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], N
 def _claim(out: Path, wanted: set[tuple[int, float | None]]) -> None:
     """Refuse a folder whose clips were drawn otherwise; they would be taken for those of this data set."""
     try:
-        standing = {(row.get("seed"), row.get("restless")) for row in read_manifest(out)}
+        rows = read_manifest(out)
     except FilmError:
         return
+    if not all("underway" in row for row in rows):
+        raise FilmError(f"{out} holds a film by a former version, whose motions differ; choose another folder")
+    standing = {(row.get("seed"), row.get("restless")) for row in rows}
     if standing != wanted:
         seed, restless = sorted(standing, key=str)[0]
         drawn = f"seed {seed}" if restless is None else f"seed {seed}, restless {restless:g}"

@@ -57,9 +57,13 @@ def heads_of_film(folder: Path) -> Iterator[tuple[dict[str, Any], Array]]:
     try:
         command = json.loads((folder / "card.json").read_text(encoding="utf-8"))["command"]
         persons, seed, restless = command["persons"], command["seed"], command["restless"]
+        rows = read_manifest(folder)
+        former = [row["file"] for row in rows if "underway" not in row]
+        if former:
+            raise KeyError(former[0])
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise FilmError(f"{folder} has no card.json of a film by this version; film it again") from error
     with Stage() as stage:
-        for row in read_manifest(folder):
+        for row in rows:
             job = Job(seed, row["label"], int(row["person"][1:]), persons, row["take"], restless)
             yield row, head_track(stage, job.shot())

@@ -13,7 +13,8 @@ from nao_sim.people.avi import AviWriter
 from nao_sim.people.camera import Camera
 from nao_sim.people.errors import FilmError
 from nao_sim.people.film import roll
-from nao_sim.people.manifest import known_labels, read_manifest
+from nao_sim.people.heads import heads_of_film
+from nao_sim.people.manifest import known_labels, read_manifest, write_manifest
 from nao_sim.people.photos import draw_photo, take_photo
 from nao_sim.people.rooms import BOX, Item
 from nao_sim.people.samples import head_and_hands, sample_labels, sample_photo, sample_shot
@@ -90,6 +91,17 @@ def test_a_folder_with_another_film_is_left_alone(small):
     with pytest.raises(FilmError, match="choose another folder"):
         dataset.film(dataset.plan(PERSONS, 1, 4, ["yes", "victory"], 1, restless=0.5), out, processes=1)
     assert not list(out.glob("yes/.*"))
+
+
+def test_a_film_by_a_former_version_is_left_alone(small, tmp_path):
+    out, jobs = small
+    rows = [{name: value for name, value in row.items() if name != "underway"} for row in read_manifest(out)]
+    write_manifest(tmp_path, rows)
+    with pytest.raises(FilmError, match="former version"):
+        dataset.film(jobs, tmp_path, processes=1)
+    dataset.write_card(tmp_path, {"persons": PERSONS, "seed": 4, "restless": None}, jobs)
+    with pytest.raises(FilmError, match="film it again"):
+        next(heads_of_film(tmp_path))
 
 
 def test_persons_and_shots_cover_what_is_promised():
