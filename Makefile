@@ -35,7 +35,7 @@ assets: $(DONE)
 	$(BIN)/nao-sim film --samples --out assets/clips
 
 database: $(DONE)
-	$(BIN)/nao-sim film --out build/set --persons 60 --takes 4 --irrelevant 4000 --seed 3
+	$(BIN)/nao-sim film --out build/set --persons 60 --takes 4 --irrelevant 4000 --seed 21
 	$(BIN)/nao-sim train build/set --out assets/databases/dynamic.parquet
 
 clean:

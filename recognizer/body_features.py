@@ -18,13 +18,14 @@ from recognizer.finder import Body
 from recognizer.head_features import SWAY_SECONDS, head_features, running_mean
 from recognizer.head_motion import LIGHT
 from recognizer.head_motion import NAMES as HEAD_MOTIONS
+from recognizer.motion_net import FEATURES
 from recognizer.pose_features import pose_features
 from recognizer.steps import Steps
 from recognizer.unrest import unrest_features
 from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, make_step
 
 METHOD = "body"
-VERSION = 4
+VERSION = 5
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
@@ -33,13 +34,19 @@ Item = tuple[str, np.ndarray]
 
 
 def describe(
-    steps: Steps, head_motion: np.ndarray, regions: list[MovingRegions], body: Body, size: tuple[int, int]
+    steps: Steps,
+    head_motion: np.ndarray,
+    motion: np.ndarray,
+    regions: list[MovingRegions],
+    body: Body,
+    size: tuple[int, int],
 ) -> list[Item]:
     """Return named groups of features of one clip.
 
     Args:
         steps: from :class:`recognizer.window.Windows`; 2 at least.
         head_motion: from :class:`recognizer.head_motion.HeadMotion`, (n, 17).
+        motion: from :class:`recognizer.motion_watch.MotionWatch`, (2, 128).
         regions: moving regions in the whole image.
         body: place and size of the person [px of an image of ``size``].
         size: width and height of that image.
@@ -56,6 +63,7 @@ def describe(
         *_head_places(active),
         *head_features(head_motion),
         *_whole_image(regions, body, size),
+        *zip(("motion", "motion_mirrored"), motion, strict=True),
         ("moved", np.array([math.log1p(active.moved), math.log1p(active.speed.max(axis=0).mean())])),
         ("active_seconds", np.array([math.log((active.last - active.first) * active.period + 0.2)])),
     ]
@@ -210,7 +218,8 @@ def blank() -> list[Item]:
         steps.append(make_step(0.1 * i, 0.1, zero[0], zero, head, pose, np.zeros(2, np.float32)))
     head_motion = np.zeros((7, 2 + len(HEAD_MOTIONS) + len(LIGHT)), np.float32)
     head_motion[:, 1] = 0.1
-    return describe(steps, head_motion, [], Body(40, 40, 10, 0), (320, 240))
+    motion = np.zeros((2, FEATURES), np.float32)
+    return describe(steps, head_motion, motion, [], Body(40, 40, 10, 0), (320, 240))
 
 
 def names() -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from recognizer.database import IRRELEVANT, Rows
 from recognizer.mirror import mirrored_map
 
 WIDER = 3  # times as many neighbours tell how dense a class is around
+SIMILAR = 3  # times as many rows may one kind have as another beside which it is looked at
 BATCH = 500  # vectors whose distances are worked out at a time
 
 
@@ -52,7 +53,8 @@ class MeasuredRows:
         self._squares = np.einsum("nc,nc->n", self._projected, self._projected)
         self.labels, self.rows_of = _slices(self.rows.labels)
         irrelevant = np.flatnonzero(self.rows.labels == IRRELEVANT)
-        self.kinds, self._rows_of_kind = _slices(self.rows.actions[irrelevant], irrelevant.min(initial=len(order)))
+        self.kinds, rows_of_kind = _slices(self.rows.actions[irrelevant], irrelevant.min(initial=len(order)))
+        self._kinds_by_size = _by_size(rows_of_kind, len(order))
 
     def project(self, vectors: np.ndarray) -> np.ndarray:
         """Bring feature vectors (n, d) into the metric, (n, c) float32."""
@@ -81,9 +83,11 @@ class MeasuredRows:
             nearest.sort(axis=1)
             out[:, target] = np.add.reduce(nearest[:, :k], axis=1) / min(k, nearest.shape[1])
             out[:, labels + target] = np.add.reduce(nearest, axis=1) / nearest.shape[1]
-        for target, rows in enumerate(self._rows_of_kind):
-            nearest = _nearest(distances[:, rows], k)
-            out[:, 2 * labels + target] = np.add.reduce(nearest, axis=1) / nearest.shape[1]
+        beyond = np.column_stack([distances, np.full(len(distances), np.inf, distances.dtype)])
+        for kinds, places, sizes in self._kinds_by_size:
+            nearest = _nearest(beyond[:, places], k)
+            total = np.add.reduce(nearest, axis=-1, where=nearest < np.inf)
+            out[:, 2 * labels + kinds] = total / np.minimum(sizes, k)
         return out
 
     def distances_as(self, other: MeasuredRows, vectors: np.ndarray, k: int) -> np.ndarray:
@@ -118,10 +122,30 @@ def _slices(names: np.ndarray, start: int = 0) -> tuple[np.ndarray, list[slice]]
     return found, [slice(start + i, start + i + n) for i, n in zip(first.tolist(), counts.tolist(), strict=True)]
 
 
+def _by_size(slices: list[slice], beyond: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Slices of similar size together, so that many are looked at in one go.
+
+    Returns:
+        of each group the slices' numbers (g,), the places in each (g, longest), ``beyond`` where there are no more,
+        and their sizes (g,).
+    """
+    sizes = np.array([rows.stop - rows.start for rows in slices], int)
+    groups = []
+    left = np.argsort(sizes, kind="stable")
+    while len(left):
+        alike = sizes[left] <= SIMILAR * sizes[left[0]]
+        numbers, left = left[alike], left[~alike]
+        within = np.arange(sizes[numbers].max())
+        starts = np.array([slices[number].start for number in numbers])
+        places = np.where(within < sizes[numbers, None], starts[:, None] + within, beyond)
+        groups.append((numbers, places, sizes[numbers]))
+    return groups
+
+
 def _nearest(distances: np.ndarray, count: int) -> np.ndarray:
-    """The ``count`` smallest of each row (n, m), or all m, in no order."""
-    count = min(count, distances.shape[1])
+    """The ``count`` smallest along the last axis, or all, in no order."""
+    count = min(count, distances.shape[-1])
     ordered = distances.copy()  # many small ones: what wraps NumPy's own methods would take as long as they do
-    ordered.partition(count - 1, axis=1)
-    smallest: np.ndarray = ordered[:, :count]
+    ordered.partition(count - 1, axis=-1)
+    smallest: np.ndarray = ordered[..., :count]
     return smallest

@@ -40,7 +40,7 @@ class Method:
 def _body(track: Track) -> np.ndarray:
     grey = track.samples[0].grey
     size = (grey.shape[1], grey.shape[0])
-    items = body_features.describe(track.steps, track.head_motion, list(track.regions), track.body, size)
+    items = body_features.describe(track.steps, track.head_motion, track.motion, list(track.regions), track.body, size)
     return body_features.vector(items)
 
 

@@ -79,6 +79,8 @@ def _twin(name: str) -> str:
         if name.startswith(prefix):
             side = name.removeprefix(prefix)
             return prefix + _OPPOSITE.get(side, side)
+    if name.startswith("motion"):
+        return "motion" if name == "motion_mirrored" else "motion_mirrored"
     if name.startswith("rhythm_"):
         side, axis = name.removeprefix("rhythm_").rsplit("_", 1)
         return f"rhythm_{_OPPOSITE.get(side, side)}_{axis}"

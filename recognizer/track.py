@@ -14,6 +14,7 @@ from recognizer.finder import Body
 from recognizer.flow import horn_schunck
 from recognizer.head_follow import HeadFollower
 from recognizer.head_motion import HeadMotion
+from recognizer.motion_watch import MotionWatch
 from recognizer.samples import LOOKS, Sample, Sampler
 from recognizer.scene import Scene
 from recognizer.steps import Steps
@@ -52,6 +53,7 @@ class Track:
         self._follower: HeadFollower | None = None
         self._head = HeadMotion()
         self._head_rows: deque[np.ndarray] = deque(maxlen=kept * LOOKS)
+        self._watch = MotionWatch(kept) if find_body else None
         self.scene = Scene()
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
@@ -71,6 +73,12 @@ class Track:
     def head_motion(self) -> np.ndarray:
         """(n, 17) how the head moved, at the camera's own rate; rows of :class:`HeadMotion`."""
         return np.array(self._head_rows)
+
+    @property
+    def motion(self) -> np.ndarray:
+        """(2, 128) what the network sees in the clip and in the mirrored one; see :class:`MotionWatch`."""
+        assert self._watch is not None
+        return self._watch.features
 
     def push(self, frame: np.ndarray) -> None:
         """Take one frame, (h, w, 3) uint8 BGR, all of one size.
@@ -104,6 +112,7 @@ class Track:
                 self._work_off(CATCH_UP)
 
     def _work_off(self, count: int) -> None:
+        assert self._watch is not None
         if self._windows is None or self._follower is None:
             self._windows, self._follower = Windows(self.body), HeadFollower(self.body)
         for _ in range(min(count, len(self._waiting))):
@@ -114,6 +123,7 @@ class Track:
             step = self._windows.push(sample, head)
             if step is not None:
                 self.steps.append(step)
+                self._watch.push(step)
 
     def end(self) -> None:
         """Finish what is pending; call it after the last frame.
@@ -127,7 +137,7 @@ class Track:
             raise ClipError(
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
-        if self._finder is not None:
+        if self._watch is not None:
             self._work_off(len(self._waiting))
 
 

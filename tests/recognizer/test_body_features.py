@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from recognizer.body_features import _correlation, _spread, describe, names, vector
 from recognizer.finder import Body
 from recognizer.mirror import mirrored
+from recognizer.motion_net import FEATURES
 from recognizer.steps import Steps
 from recognizer.window import HEAD, POSE, make_step
 
@@ -42,7 +43,7 @@ def test_the_heads_places_turn_round_in_the_mirror() -> None:
             steps.append(make_step(0.1 * k, 0.1, flow[0], flow, still, pose, place))
         motion = np.zeros((8, 17), np.float32)
         motion[:, 1] = 0.1
-        items = describe(steps, motion, [], Body(40, 40, 10, 0), (320, 240))
+        items = describe(steps, motion, np.zeros((2, FEATURES)), [], Body(40, 40, 10, 0), (320, 240))
         assert np.abs(dict(items)["head_places"]).min() > 0
         return vector(items)
 

@@ -1,0 +1,241 @@
+"""Learn the network of ``recognizer/motion_net.py`` anew: ``python docs/train_motion_net.py SET``; needs ``torch``.
+
+SET is a folder that ``nao-sim film`` made. The shipped weights were learned in two runs on ``nao-sim film --out SET
+--persons 90 --takes 4 --irrelevant 6000 --seed 3``, first with ``--persons 60 --epochs 10 --rate 2e-3``, then, from
+what that left in ``motion_net.pt``, on all 90 with ``--epochs 8 --rate 1.2e-3 --from motion_net.pt``; together about an
+hour on two cores. What every clip shows the network is kept in SET/looks.npz. None of these persons is in the shipped
+database or takes part in its figures.
+
+The network learns to name gestures and kinds of irrelevant motion. Half of the clips are mirrored; pictures are shifted
+by up to half a head, their contrast and speeds vary, and a few steps are cut off at the ends.
+"""
+
+from __future__ import annotations
+
+import argparse
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import cv2
+import joblib
+import numpy as np
+import torch
+from torch import nn
+
+from nao_sim.gestures.vocabulary import vocabulary
+from recognizer import open_clip
+from recognizer.database import IRRELEVANT, Database
+from recognizer.dataset import Entry, read_manifest
+from recognizer.known import metric_classes
+from recognizer.mirror import twins
+from recognizer.motion_net import BRIGHTEST, DILATIONS, FEATURES, FILE, PICTURE_UNIT, REST, STRIDES, Look
+from recognizer.track import track_clip
+from recognizer.window import Step
+
+CHANNELS, SIDES = (2, 8, 16, 32, 40, 48), (5, 3, 3, 3, 3)  # of the convolutions over space
+SEEN, HEAD, TIME = 64, 32, 96  # numbers of a step: of all it sees, of the head; of the convolutions over time
+BATCH, DROPPED, SMOOTHED = 32, 0.15, 0.05
+
+
+class Clips:
+    """What all clips show, step after step, and what they are.
+
+    Args:
+        entries: of the data set.
+        cache: file in which it is kept.
+    """
+
+    def __init__(self, entries: list[Entry], cache: Path) -> None:
+        if not cache.exists():
+            shown = joblib.Parallel(-1, verbose=5)(joblib.delayed(look_at)(entry) for entry in entries)
+            steps = np.array([len(pictures) for pictures, _, _ in shown])
+            pictures, flow, head = (np.concatenate(part) for part in zip(*shown, strict=True))
+            np.savez(cache, steps=steps, pictures=pictures, flow=flow, head=head)
+        with np.load(cache) as kept:
+            self.steps, self.pictures, self.flow, self.head = (kept[n] for n in ("steps", "pictures", "flow", "head"))
+        self.start = np.concatenate([[0], np.cumsum(self.steps)[:-1]])
+        self.own, self.twin, self.classes = classes(entries)
+
+    def batch(self, chosen: np.ndarray, rng: np.random.Generator) -> tuple[torch.Tensor, ...]:
+        """Pictures, flow and head of the steps of some clips, varied, which steps there are, and classes."""
+        size, longest = len(chosen), int(self.steps[chosen].max())
+        pictures = np.zeros((size, longest, 64, 80, 2), np.float32)
+        flow, head = np.zeros((size, longest, 16, 20, 3), np.float32), np.zeros((size, longest, 76), np.float32)
+        there, mirror = np.zeros((size, longest), bool), rng.random(size) < 0.5
+        for place, clip in enumerate(chosen):
+            looks = self._varied(int(clip), rng)
+            if mirror[place]:
+                looks = [look.mirrored() for look in looks]
+            n = len(looks)
+            pictures[place, :n] = [look.pictures for look in looks]
+            flow[place, :n] = [look.flow for look in looks]
+            head[place, :n] = [look.head for look in looks]
+            there[place, :n] = True
+        images = (torch.from_numpy(a).flatten(0, 1).permute(0, 3, 1, 2) for a in (pictures, flow))
+        target = np.where(mirror, self.twin[chosen], self.own[chosen])
+        return *images, torch.from_numpy(head).flatten(0, 1), torch.from_numpy(there), torch.from_numpy(target)
+
+    def _varied(self, clip: int, rng: np.random.Generator) -> list[Look]:
+        first, last = self.start[clip], self.start[clip] + self.steps[clip]
+        picture = self.pictures[first:last].astype(np.float32)
+        seen = np.stack([picture, picture - picture[:REST].mean(axis=0)], axis=-1)
+        down, right = rng.integers(-2, 3, 2)
+        seen = np.roll(seen, (2 * down, 2 * right), (1, 2)) * np.float32(np.exp(rng.normal(0, 0.15)) / PICTURE_UNIT)
+        faster = np.float32(np.exp(rng.normal(0, 0.1)))
+        flow = self.flow[first:last].astype(np.float32) * faster
+        if down % 2 == 0 and right % 2 == 0:  # a cell of the flow is four pixels wide
+            flow = np.roll(flow, (down // 2, right // 2), (1, 2))
+        head = self.head[first:last].astype(np.float32) * np.sqrt(faster)
+        looks = [Look(*look) for look in zip(seen, flow, head, strict=True)]
+        if rng.random() < 0.3 and len(looks) > 20:
+            return looks[rng.integers(0, 3) : len(looks) - rng.integers(0, 3)]
+        return looks
+
+
+def look_at(entry: Entry) -> tuple[np.ndarray, ...]:
+    """Pictures (n, 64, 80) int8, flow (n, 16, 20, 3) and head (n, 76) float16 of the steps of a clip."""
+    cv2.setNumThreads(1)
+    steps = track_clip(open_clip(entry.path, entry.frames)).steps
+    names = Step.__dataclass_fields__
+    rest = np.zeros((64, 80), np.float32)
+    looks = [Look.of(Step(*(steps.stacked(name)[k] for name in names)), rest) for k in range(len(steps))]
+    pictures = steps.stacked("picture").clip(-BRIGHTEST, BRIGHTEST).astype(np.int8)
+    return pictures, np.array([k.flow for k in looks], np.float16), np.array([k.head for k in looks], np.float16)
+
+
+def classes(entries: list[Entry]) -> tuple[np.ndarray, np.ndarray, int]:
+    """Class of each clip, class of the mirrored clip, and how many classes there are."""
+    family = {name: entry.family for name, entry in vocabulary().items()}
+    columns = [[e.label, family.get(e.label, IRRELEVANT), e.action, e.person, e.name] for e in entries]
+    mirror = {name: entry.mirror for name, entry in vocabulary().items() if entry.family in ("small", "large")}
+    rows = Database(np.zeros((len(entries), 0), np.float32), *np.array(columns).T, (), "body", 0, mirror)
+    own, twin = metric_classes(rows.rows), metric_classes(twins(rows))
+    known, index = np.unique(np.concatenate([own, twin]), return_inverse=True)
+    return *np.split(index, 2), len(known)
+
+
+class Net(nn.Module):
+    """The layers of :class:`recognizer.motion_net.MotionNet` before they are folded, and one that names."""
+
+    def __init__(self, classes: int) -> None:
+        super().__init__()
+        reads = [c + 3 * (stride == 1) for c, stride in zip(CHANNELS[:-1], STRIDES, strict=True)]
+        self.space = nn.ModuleList(
+            nn.Sequential(nn.Conv2d(n, out, side, stride, side // 2), nn.BatchNorm2d(out), nn.ReLU())
+            for n, out, side, stride in zip(reads, CHANNELS[1:], SIDES, STRIDES, strict=True)
+        )
+        self.seen, self.head = nn.Linear(CHANNELS[-1] * 20, SEEN), nn.Linear(76, HEAD)
+        self.time = nn.ModuleList(
+            nn.Sequential(nn.Conv1d(n, TIME, 5, padding=2 * d, dilation=d), nn.BatchNorm1d(TIME), nn.ReLU())
+            for n, d in zip((SEEN + HEAD, TIME, TIME), DILATIONS, strict=True)
+        )
+        self.whole, self.name = nn.Linear(3 * TIME, FEATURES), nn.Linear(FEATURES, classes)
+
+    def forward(
+        self, pictures: torch.Tensor, flow: torch.Tensor, head: torch.Tensor, there: torch.Tensor
+    ) -> torch.Tensor:
+        """Name clips: logits (n, classes)."""
+        used = there.flatten()
+        maps = pictures[used]
+        for layer, stride in zip(self.space, STRIDES, strict=True):
+            maps = layer(maps if stride > 1 else torch.cat([maps, flow[used]], 1))
+        drop = nn.functional.dropout
+        seen = self.seen(drop(maps.flatten(1), DROPPED, self.training)).relu()
+        seen = torch.cat([seen, self.head(head[used]).relu()], 1)
+        steps = seen.new_zeros(len(used), SEEN + HEAD)
+        steps[used] = seen
+        mask = there[:, None].to(seen.dtype)
+        found = self.time[0](steps.view(*there.shape, -1).transpose(1, 2)) * mask
+        for layer in self.time[1:]:
+            found = found + layer(found) * mask
+        count = mask.sum(2)
+        mean = found.sum(2) / count
+        highest = (found - 1e4 * (1 - mask)).amax(2)
+        spread = (((found - mean[..., None]) * mask).square().sum(2) / count + 1e-4).sqrt()
+        whole = self.whole(drop(torch.cat([mean, highest, spread], 1), 2 * DROPPED, self.training)).relu()
+        return self.name(drop(whole, DROPPED, self.training))
+
+    def folded(self) -> dict[str, np.ndarray]:
+        """Weights as :class:`recognizer.motion_net.Layer` reads them."""
+        arrays = {}
+        for name, layers in (("space", self.space), ("time", self.time)):
+            for k, (convolution, norm, _) in enumerate(layers):
+                gain = norm.weight / (norm.running_var + norm.eps).sqrt()
+                weights = (convolution.weight.movedim(0, -1) * gain).movedim(0, -2).flatten(0, -2)
+                arrays[f"{name}{k}_weights"] = weights
+                arrays[f"{name}{k}_offsets"] = (convolution.bias - norm.running_mean) * gain + norm.bias
+        # The network reads maps with the channels last.
+        seen = self.seen.weight.unflatten(1, (CHANNELS[-1], 20)).transpose(1, 2).flatten(1)
+        for name, weights, layer in (
+            ("seen", seen, self.seen),
+            ("head", self.head.weight, self.head),
+            ("whole", self.whole.weight, self.whole),
+        ):
+            arrays[f"{name}_weights"], arrays[f"{name}_offsets"] = weights.T, layer.bias
+        return {name: values.detach().contiguous().numpy().astype(np.float16) for name, values in arrays.items()}
+
+
+def batches(clips: Clips, chosen: np.ndarray, rng: np.random.Generator) -> list[np.ndarray]:
+    """All clips once, in batches of about equal length."""
+    order = rng.permutation(chosen)
+    batches = []
+    for first in range(0, len(order), 20 * BATCH):
+        some = order[first : first + 20 * BATCH]
+        some = some[np.argsort(clips.steps[some], kind="stable")]
+        batches += [some[k : k + BATCH] for k in range(0, len(some), BATCH)]
+    return [batches[k] for k in rng.permutation(len(batches))]
+
+
+def train(net: Net, clips: Clips, chosen: np.ndarray, epochs: int, rate: float) -> None:
+    """Show the network the ``chosen`` clips so many times."""
+    rng = np.random.default_rng(0)
+    torch.manual_seed(0)
+    optimizer = torch.optim.AdamW(net.parameters(), rate, weight_decay=2e-2)
+    updates = epochs * -(-len(chosen) // BATCH) + 20
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, updates, pct_start=0.1)
+    net.train()
+    for epoch in range(epochs):
+        lost, right = 0.0, 0
+        with ThreadPoolExecutor(1) as ahead:
+            todo = batches(clips, chosen, rng)
+            coming = ahead.submit(clips.batch, todo[0], rng)
+            for following in [*todo[1:], None]:
+                *inputs, target = coming.result()
+                if following is not None:
+                    coming = ahead.submit(clips.batch, following, rng)
+                with torch.autocast("cpu", torch.bfloat16):
+                    named = net(*inputs)
+                loss = nn.functional.cross_entropy(named.float(), target, label_smoothing=SMOOTHED)
+                optimizer.zero_grad()
+                loss.backward()
+                nn.utils.clip_grad_norm_(net.parameters(), 2.0)
+                optimizer.step()
+                schedule.step()
+                lost, right = lost + loss.item() * len(target), right + int((named.argmax(1) == target).sum())
+        print(f"epoch {epoch + 1}: loss {lost / len(chosen):.3f}, {right / len(chosen):.1%} right", flush=True)
+
+
+def main() -> None:
+    """Look at the film, train, write the weights."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("set", type=Path)
+    parser.add_argument("--persons", type=int, default=1000, help="use the first so many")
+    parser.add_argument("--epochs", type=int, default=10)
+    parser.add_argument("--rate", type=float, default=2e-3)
+    parser.add_argument("--from", dest="begin", type=Path, help="weights to go on from, of a former run")
+    parser.add_argument("--out", type=Path, default=Path("recognizer"), help=f"folder of {FILE} and motion_net.pt")
+    asked = parser.parse_args()
+    entries = read_manifest(asked.set)
+    clips = Clips(entries, asked.set / "looks.npz")
+    net = Net(clips.classes)
+    if asked.begin:
+        net.load_state_dict(torch.load(asked.begin, weights_only=True))
+    first = np.unique([entry.person for entry in entries])[: asked.persons]
+    chosen = np.flatnonzero(np.isin([entry.person for entry in entries], first))
+    train(net, clips, chosen, asked.epochs, asked.rate)
+    torch.save(net.state_dict(), asked.out / "motion_net.pt")
+    np.savez_compressed(asked.out / FILE, **net.folded())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,158 @@
+"""What a small convolutional network sees in the person's window: 128 numbers, however long the clip.
+
+Four looks at every step (the picture, how it differs from rest, the flow, the head from near) become 96 numbers by
+five layers of convolutions; three more over time, of growing reach, and their mean, maximum and spread over the clip
+become 128. The network was trained once to tell gestures and 55 other motions of simulated people apart
+(``docs/train_motion_net.py``), none of whom is in the shipped database. Only these numbers are used, as features among
+others: a gesture is added by rows of a database, not by training the network again.
+
+Batch normalisation (Ioffe and Szegedy, 2015) is folded into the weights; all is float32 and plain NumPy.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from importlib.resources import files
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.lib.stride_tricks import as_strided
+
+from recognizer.window import Step, cell_means
+
+FILE = "motion_net.npz"
+REST = 3  # steps at the beginning whose mean picture is the person at rest
+PICTURE_UNIT, FLOW_UNIT = 32.0, 4.0  # even-contrast levels, head heights per second, that count as 1
+BRIGHTEST = 127.0  # even-contrast levels; more counts as much
+HEAD_CELLS = 6  # in each direction, of the window HEAD
+STRIDES = (2, 2, 1, 2, 2)  # of the convolutions over space
+DILATIONS = (1, 2, 4)  # steps between what the convolutions over time read
+FEATURES = 128
+
+
+class Layer(NamedTuple):
+    """Weights (d, n) and offsets (n,) of a layer whose inputs are brought to rows of d, as they are stored."""
+
+    weights: np.ndarray
+    offsets: np.ndarray
+
+    def __call__(self, inputs: np.ndarray) -> np.ndarray:
+        """Rectified output (…, n) of inputs (…, d)."""
+        out = inputs @ self.weights
+        out += self.offsets
+        return np.maximum(out, 0, out=out)
+
+
+@dataclasses.dataclass(frozen=True)
+class Look:
+    """One step as the network reads it.
+
+    Attributes:
+        pictures: (64, 80, 2) the window, and what differs in it from rest.
+        flow: (16, 20, 3) root of the flow right, down and of its size, in cells of half a head height.
+        head: (76,) root of the flow at the head in 6×6 cells right and down, of the chest's velocity, the head's place.
+    """
+
+    pictures: np.ndarray
+    flow: np.ndarray
+    head: np.ndarray
+
+    @classmethod
+    def of(cls, step: Step, rest: np.ndarray) -> Look:
+        """Bring a step to the network's units; ``rest`` (64, 80) is the picture before the motion."""
+        picture = step.picture.clip(-BRIGHTEST, BRIGHTEST)
+        flow = cell_means(step.flow, 2) / FLOW_UNIT
+        flow = np.stack([_root(flow[0]), _root(flow[1]), np.sqrt(np.hypot(*flow))], axis=-1)
+        cells = [cv2.resize(f, (HEAD_CELLS, HEAD_CELLS), interpolation=cv2.INTER_AREA).ravel() for f in step.head_flow]
+        head = _root(np.concatenate([*cells, step.torso, step.place]))
+        return cls(np.stack([picture, picture - rest], axis=-1) / np.float32(PICTURE_UNIT), flow, head)
+
+    def mirrored(self) -> Look:
+        """The look of the mirrored clip."""
+        head = self.head.copy()
+        across = head[:-4].reshape(2, HEAD_CELLS, HEAD_CELLS)
+        across[...] = across[..., ::-1]
+        head[: HEAD_CELLS**2] *= -1
+        head[-4::2] *= -1
+        return Look(self.pictures[:, ::-1], self.flow[:, ::-1] * np.array([-1, 1, 1], np.float32), head)
+
+
+def _root(values: np.ndarray) -> np.ndarray:
+    rooted: np.ndarray = np.sign(values) * np.sqrt(np.abs(values))
+    return rooted
+
+
+@dataclasses.dataclass(frozen=True)
+class MotionNet:
+    """The layers, in the order in which they are applied."""
+
+    space: tuple[Layer, ...]
+    seen: Layer
+    head: Layer
+    time: tuple[Layer, ...]
+    whole: Layer
+
+    @classmethod
+    def load(cls) -> MotionNet:
+        """Read the shipped weights."""
+        return _shipped()
+
+    def step(self, look: Look) -> np.ndarray:
+        """Numbers (96,) of one step."""
+        maps = look.pictures
+        for layer, stride in zip(self.space, STRIDES, strict=True):
+            if stride == 1:
+                maps = np.concatenate([maps, look.flow], axis=-1)
+            maps = layer(_patches(maps, layer, stride))
+        return np.concatenate([self.seen(maps.ravel()), self.head(look.head)])
+
+    def clip(self, steps: np.ndarray) -> np.ndarray:
+        """Numbers (128,) of a clip from those of its steps (n, 96), 1 at least."""
+        found = self.time[0](_in_time(steps, DILATIONS[0]))
+        for layer, dilation in zip(self.time[1:], DILATIONS[1:], strict=True):
+            found = found + layer(_in_time(found, dilation))
+        spread = np.sqrt(found.var(axis=0) + np.float32(1e-4))
+        return self.whole(np.concatenate([found.mean(axis=0), found.max(axis=0), spread]))
+
+
+def _patches(maps: np.ndarray, layer: Layer, stride: int) -> np.ndarray:
+    """What each output of a convolution over maps (h, w, c) reads, (h/stride, w/stride, d); 0 beyond the border."""
+    height, width, channels = maps.shape
+    side = round((len(layer.weights) / channels) ** 0.5)
+    around = side // 2
+    padded = np.zeros((height + 2 * around, width + 2 * around, channels), np.float32)
+    padded[around:-around, around:-around] = maps
+    down, right, _ = padded.strides
+    rows, columns = height // stride, width // stride
+    # A row of a patch lies together in memory.
+    view = as_strided(
+        padded, (rows, columns, side, side * channels), (stride * down, stride * right, down, padded.itemsize)
+    )
+    return view.reshape(rows, columns, -1)
+
+
+def _in_time(steps: np.ndarray, dilation: int) -> np.ndarray:
+    """Each step with two before and two after it, ``dilation`` apart: (n, c) to (n, 5·c); 0 beyond the ends."""
+    n, size = steps.shape
+    padded = np.zeros((n + 4 * dilation, size), np.float32)
+    padded[2 * dilation : 2 * dilation + n] = steps
+    return np.concatenate([padded[k * dilation : k * dilation + n] for k in range(5)], axis=1)
+
+
+@functools.cache
+def _shipped() -> MotionNet:
+    with files("recognizer").joinpath(FILE).open("rb") as file, np.load(file, allow_pickle=False) as stored:
+        arrays = {name: stored[name].astype(np.float32) for name in stored.files}
+
+    def layer(name: str) -> Layer:
+        return Layer(arrays[f"{name}_weights"], arrays[f"{name}_offsets"])
+
+    return MotionNet(
+        tuple(layer(f"space{k}") for k in range(len(STRIDES))),
+        layer("seen"),
+        layer("head"),
+        tuple(layer(f"time{k}") for k in range(len(DILATIONS))),
+        layer("whole"),
+    )
