@@ -3,8 +3,9 @@
 SET is a folder that ``nao-sim film`` made. The shipped weights were learned in two runs on ``nao-sim film --out SET
 --persons 90 --takes 4 --irrelevant 6000 --seed 3``, first with ``--persons 60 --epochs 10 --rate 2e-3``, then, from
 what that left in ``motion_net.pt``, on all 90 with ``--epochs 8 --rate 1.2e-3 --from motion_net.pt``; together about an
-hour on two cores. What every clip shows the network is kept in SET/looks.npz. None of these persons is in the shipped
-database or takes part in its figures.
+hour on two cores. That gives nearly these weights: raise ``VERSION`` in ``recognizer/body_features.py`` with them and
+train all databases again. What every clip shows the network is kept in SET/looks.npz. None of these persons is in the
+shipped database or takes part in its figures.
 
 The network learns to name gestures and kinds of irrelevant motion. Half of the clips are mirrored; pictures are shifted
 by up to half a head, their contrast and speeds vary, and a few steps are cut off at the ends.

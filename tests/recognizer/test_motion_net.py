@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -10,7 +12,8 @@ from scipy.signal import correlate
 
 from nao_sim.resources import resource
 from recognizer import Clip, open_clip
-from recognizer.motion_net import DILATIONS, FEATURES, STRIDES, Look, MotionNet
+from recognizer.body_features import VERSION
+from recognizer.motion_net import DILATIONS, FEATURES, FILE, STRIDES, Look, MotionNet
 from recognizer.motion_watch import MotionWatch
 from recognizer.track import track_clip
 from recognizer.window import HEAD, POSE, Step, make_step
@@ -102,3 +105,9 @@ def test_only_the_last_steps_count_and_few_are_nothing() -> None:
         short.push(step)
     np.testing.assert_allclose(long.features, short.features, rtol=1e-4, atol=1e-4)
     assert long.features.any()
+
+
+def test_who_trains_the_network_anew_raises_the_version_of_the_features() -> None:
+    """Rows that another network described would be compared with clips that this one sees."""
+    digest = hashlib.sha256(files("recognizer").joinpath(FILE).read_bytes()).hexdigest()
+    assert (VERSION, digest[:16]) == (5, "fd4d95dcb3760dd6")
