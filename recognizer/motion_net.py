@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+from collections.abc import Sequence
 from importlib.resources import files
 from typing import NamedTuple
 
@@ -40,7 +41,7 @@ class Layer(NamedTuple):
 
     def __call__(self, inputs: np.ndarray) -> np.ndarray:
         """Rectified output (…, n) of inputs (…, d)."""
-        out = inputs @ self.weights
+        out = (inputs.reshape(-1, inputs.shape[-1]) @ self.weights).reshape(*inputs.shape[:-1], -1)
         out += self.offsets
         return np.maximum(out, 0, out=out)
 
@@ -99,46 +100,46 @@ class MotionNet:
         """Read the shipped weights."""
         return _shipped()
 
-    def step(self, look: Look) -> np.ndarray:
-        """Numbers (96,) of one step."""
-        maps = look.pictures
+    def steps(self, looks: Sequence[Look]) -> np.ndarray:
+        """Numbers (m, 96) of m steps."""
+        maps, flow = np.stack([look.pictures for look in looks]), np.stack([look.flow for look in looks])
         for layer, stride in zip(self.space, STRIDES, strict=True):
             if stride == 1:
-                maps = np.concatenate([maps, look.flow], axis=-1)
+                maps = np.concatenate([maps, flow], axis=-1)
             maps = layer(_patches(maps, layer, stride))
-        return np.concatenate([self.seen(maps.ravel()), self.head(look.head)])
+        head = self.head(np.stack([look.head for look in looks]))
+        return np.concatenate([self.seen(maps.reshape(len(looks), -1)), head], axis=1)
 
-    def clip(self, steps: np.ndarray) -> np.ndarray:
-        """Numbers (128,) of a clip from those of its steps (n, 96), 1 at least."""
+    def clips(self, steps: np.ndarray) -> np.ndarray:
+        """Numbers (m, 128) of m clips from those of their steps (m, n, 96), of which there is 1 at least."""
         found = self.time[0](_in_time(steps, DILATIONS[0]))
         for layer, dilation in zip(self.time[1:], DILATIONS[1:], strict=True):
             found = found + layer(_in_time(found, dilation))
-        spread = np.sqrt(found.var(axis=0) + np.float32(1e-4))
-        return self.whole(np.concatenate([found.mean(axis=0), found.max(axis=0), spread]))
+        spread = np.sqrt(found.var(axis=1) + np.float32(1e-4))
+        return self.whole(np.concatenate([found.mean(axis=1), found.max(axis=1), spread], axis=1))
 
 
 def _patches(maps: np.ndarray, layer: Layer, stride: int) -> np.ndarray:
-    """What each output of a convolution over maps (h, w, c) reads, (h/stride, w/stride, d); 0 beyond the border."""
-    height, width, channels = maps.shape
+    """What each output of a convolution over maps (m, h, w, c) reads, (m, h/stride, w/stride, d); 0 outside."""
+    count, height, width, channels = maps.shape
     side = round((len(layer.weights) / channels) ** 0.5)
     around = side // 2
-    padded = np.zeros((height + 2 * around, width + 2 * around, channels), np.float32)
-    padded[around:-around, around:-around] = maps
-    down, right, _ = padded.strides
+    padded = np.zeros((count, height + 2 * around, width + 2 * around, channels), np.float32)
+    padded[:, around:-around, around:-around] = maps
+    following, down, right, _ = padded.strides
     rows, columns = height // stride, width // stride
     # A row of a patch lies together in memory.
-    view = as_strided(
-        padded, (rows, columns, side, side * channels), (stride * down, stride * right, down, padded.itemsize)
-    )
-    return view.reshape(rows, columns, -1)
+    shape = (count, rows, columns, side, side * channels)
+    view = as_strided(padded, shape, (following, stride * down, stride * right, down, padded.itemsize))
+    return view.reshape(count, rows, columns, -1)
 
 
 def _in_time(steps: np.ndarray, dilation: int) -> np.ndarray:
-    """Each step with two before and two after it, ``dilation`` apart: (n, c) to (n, 5·c); 0 beyond the ends."""
-    n, size = steps.shape
-    padded = np.zeros((n + 4 * dilation, size), np.float32)
-    padded[2 * dilation : 2 * dilation + n] = steps
-    return np.concatenate([padded[k * dilation : k * dilation + n] for k in range(5)], axis=1)
+    """Each step with two before and two after it, ``dilation`` apart: (m, n, c) to (m, n, 5·c); 0 beyond the ends."""
+    count, n, size = steps.shape
+    padded = np.zeros((count, n + 4 * dilation, size), np.float32)
+    padded[:, 2 * dilation : 2 * dilation + n] = steps
+    return np.concatenate([padded[:, k * dilation : k * dilation + n] for k in range(5)], axis=2)
 
 
 @functools.cache

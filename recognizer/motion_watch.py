@@ -37,11 +37,11 @@ class MotionWatch:
 
     def _look(self, step: Step, rest: np.ndarray) -> None:
         look = Look.of(step, rest)
-        self._rows.append(np.stack([self._net.step(look), self._net.step(look.mirrored())]))
+        self._rows.append(self._net.steps([look, look.mirrored()]))
 
     @property
     def features(self) -> np.ndarray:
         """(2, 128) of the clip and of the mirrored one; 0 before there were three steps."""
         if not self._rows:
             return np.zeros((2, FEATURES), np.float32)
-        return np.stack([self._net.clip(steps) for steps in np.stack(self._rows, axis=1)])
+        return self._net.clips(np.stack(self._rows, axis=1))

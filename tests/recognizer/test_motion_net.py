@@ -48,7 +48,7 @@ def test_a_step_is_what_plain_correlations_give() -> None:
         maps = np.maximum(np.stack(outs, axis=-1)[::stride, ::stride] + layer.offsets, 0)
     seen = np.maximum(maps.ravel() @ net.seen.weights + net.seen.offsets, 0)
     head = np.maximum(look.head @ net.head.weights + net.head.offsets, 0)
-    np.testing.assert_allclose(net.step(look), np.concatenate([seen, head]), rtol=1e-3, atol=1e-4)
+    np.testing.assert_allclose(net.steps([look])[0], np.concatenate([seen, head]), rtol=1e-3, atol=1e-4)
 
 
 @pytest.mark.parametrize("n", [1, 4, 30])
@@ -66,7 +66,7 @@ def test_a_clip_is_what_plain_sums_over_time_give(n: int) -> None:
     whole = np.concatenate([found.mean(axis=0), found.max(axis=0), np.sqrt(found.var(axis=0) + 1e-4)])
     expected = np.maximum(whole @ net.whole.weights + net.whole.offsets, 0)
     assert expected.shape == (FEATURES,)
-    np.testing.assert_allclose(net.clip(steps), expected, rtol=1e-3, atol=1e-3)
+    np.testing.assert_allclose(net.clips(steps[None])[0], expected, rtol=1e-3, atol=1e-3)
 
 
 def test_a_mirrored_look_is_the_look_of_the_mirrored_step() -> None:
