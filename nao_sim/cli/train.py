@@ -46,6 +46,11 @@ def train(
         "gestures": recognizer.labels,
         "bytes": size,
     }
+    if summary["persons"] == 1:
+        console.print(
+            "one person cannot say how far persons differ: nothing will be rejected; film or import more",
+            style="yellow",
+        )
     if as_json:
         typer.echo(json.dumps(summary))
     else:
