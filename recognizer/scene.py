@@ -16,9 +16,14 @@ STILL = "nothing moves in this clip"
 
 
 class Scene:
-    """Watches samples and motion as they come; :meth:`warnings` says what was wrong."""
+    """Watches samples and motion as they come; :meth:`warnings` says what was wrong.
+
+    Attributes:
+        cut: whether the last sample is the first of another shot.
+    """
 
     def __init__(self) -> None:
+        self.cut = False
         self._before: tuple[np.ndarray, np.ndarray] | None = None
         self._cuts: list[float] = []
         self._steps = 0
@@ -28,9 +33,11 @@ class Scene:
     def observe(self, sample: Sample) -> None:
         """Compare a sample with the one before."""
         histogram = grey_histogram(sample.grey, 32)
+        self.cut = False
         if self._before is not None:
             alike = histogram_intersection(self._before[0], histogram)
             if alike < CUT_INTERSECTION and float(np.abs(sample.small - self._before[1]).mean()) > CUT_DIFFERENCE:
+                self.cut = True
                 self._cuts = [*self._cuts[-9:], sample.time]
         self._before = (histogram, sample.small)
 

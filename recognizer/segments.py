@@ -1,7 +1,8 @@
-"""Where gestures begin and end in a long video: stretches of motion between moments of rest."""
+"""Where gestures begin and end in a long video: stretches of motion between moments of rest, or between cuts."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -22,6 +23,7 @@ class Segmenter:
         self.watch = Track(fps, first_index, source, find_body=False)
         self._begun: float | None = None
         self._moved = 0.0
+        self._shot = -math.inf  # when the shot began
 
     def push(self, frame: np.ndarray) -> Iterator[list[Sample]]:
         """Take one BGR frame; yield the samples of the gesture that it ends, if it ends one."""
@@ -30,6 +32,11 @@ class Segmenter:
         if not self.watch.regions or self.watch.regions[-1].time == seen:
             return
         latest = self.watch.regions[-1]
+        if self.watch.scene.cut:
+            if self._begun is not None:
+                yield from self._cut(latest.time)
+            self._shot = latest.time
+            return
         if latest.area > 0:
             self._begun = latest.time if self._begun is None else self._begun
             self._moved = latest.time
@@ -43,9 +50,9 @@ class Segmenter:
         if self._begun is not None:
             yield from self._cut()
 
-    def _cut(self) -> Iterator[list[Sample]]:
+    def _cut(self, until: float = math.inf) -> Iterator[list[Sample]]:
         assert self._begun is not None
         begun, self._begun = self._begun, None
         if self._moved - begun >= SHORTEST_SECONDS:
-            first, last = begun - MARGIN_SECONDS, self._moved + MARGIN_SECONDS
-            yield [sample for sample in self.watch.samples if first <= sample.time <= last]
+            first, last = max(begun - MARGIN_SECONDS, self._shot), self._moved + MARGIN_SECONDS
+            yield [sample for sample in self.watch.samples if first <= sample.time <= last and sample.time < until]

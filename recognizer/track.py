@@ -105,6 +105,8 @@ class Track:
             self._flow = horn_schunck(before.small, sample.small, ALPHA, FLOW_ITERATIONS, self._flow)
             self.regions.append(moving_regions(*self._flow, sample.time, sample.time - before.time))
             self.scene.observe_motion(self.regions[-1])
+            if self.scene.cut:
+                self._flow = None  # across a cut it means nothing, and nothing may begin with it
         if self._finder is not None:
             self._waiting.append(sample)
             self._finder.observe(sample)

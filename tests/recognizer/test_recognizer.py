@@ -167,3 +167,16 @@ def test_two_turns_in_one_video_are_answered_apart(recognizer: Recognizer, sampl
     assert [a.nearest for a in answers] == ["bye_right"] * 2
     assert answers[0].end <= answers[1].start + 0.8
     assert recognizer.recognize_all(Clip.from_array(rest, fps)) == []
+
+
+def test_shots_cut_together_are_answered_apart(recognizer: Recognizer, sample_clips: Path) -> None:
+    names, shots = ("bye_right", "yes", "right_arm_up"), []
+    for name in names:
+        frames, fps = frames_of(sample_clips, name)
+        at_25 = np.arange(0, len(frames) - 1, fps / 25).round().astype(int)
+        shots.append(np.array([cv2.resize(frame, (320, 240)) for frame in frames[at_25]]))
+    answers = recognizer.recognize_all(Clip.from_array(np.concatenate(shots), 25.0))
+    assert [answer.label for answer in answers] == list(names)
+    cuts = np.cumsum([len(shot) / 25 for shot in shots])
+    assert all(a.end <= cut <= b.start + 0.1 for a, b, cut in zip(answers, answers[1:], cuts, strict=False))
+    assert not any(answer.warnings for answer in answers)
