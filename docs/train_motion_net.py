@@ -1,4 +1,6 @@
-"""Learn the network of ``recognizer/motion_net.py`` anew: ``python docs/train_motion_net.py SET``; needs ``torch``.
+"""Learn the network of ``recognizer/motion_net.py`` anew: ``python docs/train_motion_net.py SET``.
+
+Needs PyTorch, the extra ``network``.
 
 SET is a folder that ``nao-sim film`` made. The shipped weights were learned in two runs on ``nao-sim film --out SET
 --persons 90 --takes 4 --irrelevant 6000 --seed 3``, first with ``--persons 60 --epochs 10 --rate 2e-3``, then, from

@@ -115,9 +115,8 @@ class BodyModel:
         many = len(true) >= MANY
         if len(np.unique(true)) == len(labels):
             self.weights_ = Weights.fit(found, true, len(labels), network=many)
-        if not self._is_gesture.all():
-            # Weights of a part of few rows are much less sure than those of all: their odds would say nothing.
-            self._set_limits(found, true, fold if many else np.zeros_like(fold))
+        # Weights of a part of few rows are much less sure than those of all: their odds would say nothing.
+        self._set_limits(found, true, fold if many else np.zeros_like(fold))
 
     def _set_limits(self, distances: np.ndarray, targets: np.ndarray, folds: np.ndarray) -> None:
         """Limits from gestures of the persons of each fold, weighed by what the other folds say, if there are any."""
@@ -131,6 +130,9 @@ class BodyModel:
                 winner, against, _ = self._winner(weights, row, self._is_gesture)
                 odds.append(against)
                 near.append(row[winner])
+        if self._is_gesture.all():  # without irrelevant motion the plain distance has to do
+            self.farthest_ = float(np.quantile(near, 1 - FALSE_REJECTION))
+            return
         self.limit_ = float(np.quantile(odds, 1 - FALSE_REJECTION))
         self.farthest_ = float(np.quantile(near, 1 - NEVER_SEEN))
 
@@ -156,7 +158,6 @@ class BodyModel:
         name, far = str(known.labels[winner]), float(by_class[winner])
         reason = self._reason(name, odds, far, distances[0]) if odds > self.limit_ or far > self.farthest_ else ""
         rows = known.nearest(distances[0], allowed | ~gesture, SHOWN)
-        # Without irrelevant motion in the database the plain distance has to do.
         compared = not gesture.all()
         return Decision(
             None if reason else name,
@@ -165,7 +166,7 @@ class BodyModel:
             bool(reason),
             reason,
             _share(odds) if compared else far,
-            _share(self.limit_) if compared else np.inf,
+            _share(self.limit_) if compared else self.farthest_,
             {str(n): float(share) for n, share in zip(known.labels, shares, strict=True) if share > 0},
             tuple(neighbour(known.rows, row, float(distances[0, row])) for row in rows),
         )

@@ -51,9 +51,10 @@ class Look:
     """One step as the network reads it.
 
     Attributes:
-        pictures: (64, 80, 2) the window, and what differs in it from rest.
-        flow: (16, 20, 3) root of the flow right, down and of its size, in cells of half a head height.
-        head: (76,) root of the flow at the head in 6×6 cells right and down, of the chest's velocity, the head's place.
+        pictures: (64, 80, 2) the window, and what differs in it from rest [PICTURE_UNIT].
+        flow: (16, 20, 3) root of the flow right, down and of its size, in cells of half a head height [FLOW_UNIT].
+        head: (76,) root of the flow at the head, right and down in 6×6 cells, of the chest's velocity and of the head's
+            place [head heights, and per second].
     """
 
     pictures: np.ndarray

@@ -139,7 +139,7 @@ class Track:
             raise ClipError(
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
-        if self._watch is not None:
+        if self._finder is not None:
             self._work_off(len(self._waiting))
 
 

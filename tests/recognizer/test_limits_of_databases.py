@@ -37,3 +37,16 @@ def test_irrelevant_motion_of_unseen_persons_is_rejected(
     gesture = unseen.labels != IRRELEVANT
     assert said[gesture].mean() < 0.1
     assert said[~gesture].mean() > least
+
+
+def test_without_irrelevant_motion_what_is_far_from_every_gesture_is_rejected(shipped: Database) -> None:
+    persons = np.unique(shipped.persons)
+    known = np.isin(shipped.labels, ("yes", "no", "bye_right", "bye_left"))
+    model = BodyModel().fit(shipped.take(known & np.isin(shipped.persons, persons[:12])))
+    unseen = np.isin(shipped.persons, persons[30:36])
+    gestures, others = (
+        [model.decide(vector) for vector in shipped.features[unseen & rows]] for rows in (known, ~known)
+    )
+    assert np.mean([said.rejected for said in gestures]) < 0.1
+    assert np.mean([said.rejected for said in others]) > 0.5
+    assert all(said.rejected == (said.distance > said.threshold) for said in [*gestures, *others])
