@@ -95,7 +95,7 @@ def moving_regions(u: np.ndarray, v: np.ndarray, time: float, seconds: float) ->
 def _moving_sides(mask: np.ndarray) -> int:
     band = max(1, min(mask.shape) // 12)
     borders = (mask[:band], mask[-band:], mask[:, :band], mask[:, -band:])
-    return sum(bool(border.mean() > 255 / 2) for border in borders)
+    return sum(2 * cv2.countNonZero(border) > border.size for border in borders)
 
 
 def amplitude(regions: list[MovingRegions], size: tuple[int, int], rule: str = "whole_path") -> Amplitude:

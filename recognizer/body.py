@@ -33,6 +33,7 @@ class BodyFinder:
         self.body: Body | None = None
         self._flat: list[np.ndarray] = []
         self._moved: list[np.ndarray] = []
+        self._active = 0
         self._found: list[tuple[int, list[Body], np.ndarray]] = []
         self._pictures: list[np.ndarray] = []
         self._last: Sample | None = None
@@ -51,8 +52,8 @@ class BodyFinder:
         self._moved.append((np.abs(self._flat[-1] - self._flat[0]) > MOVED).astype(np.uint8))
         if number in OBSERVED:
             self._search(sample)
-        active = sum(float(m.mean()) > ACTIVE_AREA for m in self._moved)
-        if (active >= ENOUGH_ACTIVE and number + 1 >= ENOUGH_SEEN) or number + 1 >= LAST_CHANCE:
+        self._active += cv2.countNonZero(self._moved[-1]) > ACTIVE_AREA * self._moved[-1].size
+        if (self._active >= ENOUGH_ACTIVE and number + 1 >= ENOUGH_SEEN) or number + 1 >= LAST_CHANCE:
             self.decide()
 
     def _search(self, sample: Sample) -> None:

@@ -25,7 +25,8 @@ from recognizer.unrest import unrest_features
 from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, make_step
 
 METHOD = "body"
-VERSION = 5
+VERSION = 6
+ONLY_MIRRORED = "motion_mirrored"  # the group that only says what the mirrored row has for "motion"
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre
 _FFT = 64
@@ -46,7 +47,8 @@ def describe(
     Args:
         steps: from :class:`recognizer.window.Windows`; 2 at least.
         head_motion: from :class:`recognizer.head_motion.HeadMotion`, (n, 17).
-        motion: from :class:`recognizer.motion_watch.MotionWatch`, (2, 128).
+        motion: from :class:`recognizer.motion_watch.MotionWatch`, (2, 128); of a question, the second row is not asked
+            for (:func:`recognizer.mirror.asked`).
         regions: moving regions in the whole image.
         body: place and size of the person [px of an image of ``size``].
         size: width and height of that image.
@@ -63,7 +65,7 @@ def describe(
         *_head_places(active),
         *head_features(head_motion),
         *_whole_image(regions, body, size),
-        *zip(("motion", "motion_mirrored"), motion, strict=True),
+        *zip(("motion", ONLY_MIRRORED), motion, strict=True),
         ("moved", np.array([math.log1p(active.moved), math.log1p(active.speed.max(axis=0).mean())])),
         ("active_seconds", np.array([math.log((active.last - active.first) * active.period + 0.2)])),
     ]

@@ -96,8 +96,9 @@ def _missing(value: Any) -> bool:
 
 def clip_features(entry: Entry, method: str) -> np.ndarray | str:
     """Describe one clip; a string says why it could not be read."""
+    body = METHODS[method].needs_body
     try:
-        return METHODS[method].features(track_clip(open_clip(entry.path, entry.frames), METHODS[method].needs_body))
+        return METHODS[method].features(track_clip(open_clip(entry.path, entry.frames), body, mirrored=body))
     except ClipError as error:
         return str(error)
 

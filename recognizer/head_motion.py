@@ -7,6 +7,8 @@ pixels is steadier than any flow field, at any size of the head.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 
@@ -51,8 +53,7 @@ class MotionFit:
 
         The search begins at ``start``, (k,) amounts.
         """
-        gx = cv2.Sobel(first, cv2.CV_32F, 1, 0, ksize=3) / 8
-        gy = cv2.Sobel(first, cv2.CV_32F, 0, 1, ksize=3) / 8
+        gx, gy = (cv2.Sobel(first, cv2.CV_32F, *way, ksize=3, scale=1 / 8) for way in ((1, 0), (0, 1)))
         change = (self.fields[:, 0] * gx + self.fields[:, 1] * gy).reshape(len(self.fields), -1)
         weighted = change * self.weight
         normal = (weighted @ change.T).astype(float)
@@ -98,32 +99,45 @@ _TRUNK = [MotionFit(*_chest_fields(CHEST.pixels), np.full(2, 0.02))]  # one leve
 
 
 class HeadMotion:
-    """Measures a head's motion frame by frame, at the camera's own rate."""
+    """Measures a head's motion frame by frame, at the camera's own rate, and the chest's from sample to sample."""
 
     def __init__(self) -> None:
-        self._before: tuple[float, Body, list[np.ndarray], list[np.ndarray]] | None = None
+        self._head: tuple[float, Body, list[np.ndarray]] | None = None
+        self._chest: tuple[float, Body, list[np.ndarray]] | None = None
 
-    def push(self, time: float, grey: np.ndarray, body: Body) -> np.ndarray | None:
-        """Take the next frame, (h, w) uint8, with the head about at ``body``.
+    def push(self, looks: Sequence[tuple[float, np.ndarray]], body: Body) -> list[np.ndarray]:
+        """Take the next sample's frames, time and (h, w) uint8 grey picture each, with the head about at ``body``.
 
         Returns:
-            time, seconds since the frame before, NAMES and LIGHT, (17,). Where the window is does not count: the
-            motions are those in the picture.
+            for each frame but the very first: time, seconds since the frame before, NAMES and LIGHT, (17,) float32.
+            Where the window is does not count: the motions are those in the picture. A chest is slow, and has one
+            velocity for all frames of a sample.
         """
-        window, trunk = cut_window(grey, body, FACE), cut_window(grey, body, CHEST)
+        torso = self._torso(*looks[-1], body)
+        rows = (self._row(time, grey, body, torso) for time, grey in looks)
+        return [row for row in rows if row is not None]
+
+    def _row(self, time: float, grey: np.ndarray, body: Body, torso: np.ndarray) -> np.ndarray | None:
+        window = cut_window(grey, body, FACE)
         face = _halves(even_contrast(window, FINE_CONTRAST * FACE.pixels))
-        chest = [even_contrast(trunk, CHEST_CONTRAST * CHEST.pixels)]
-        before, self._before = self._before, (time, body, face, chest)
+        before, self._head = self._head, (time, body, face)
         if before is None:
             return None
         seconds = time - before[0]
-        head, torso = _coarse_to_fine(_HEAD, before[2], face), _coarse_to_fine(_TRUNK, before[3], chest)
-        head[:2] += (along := displacement(before[1], body))
-        torso += along
-        light = _MOMENTS @ window.ravel()
-        return np.concatenate([[time, seconds], head / seconds, torso / seconds, light, [window.std()]]).astype(
-            np.float32
-        )
+        head = _coarse_to_fine(_HEAD, before[2], face)
+        head[:2] += displacement(before[1], body)
+        contrast = cv2.meanStdDev(window)[1][0]
+        row = np.concatenate([(time, seconds), head / seconds, torso, _MOMENTS @ window.ravel(), contrast])
+        return row.astype(np.float32)
+
+    def _torso(self, time: float, grey: np.ndarray, body: Body) -> np.ndarray:
+        """Velocity of the chest since the sample before, (2,) right and down [head heights per second]."""
+        chest = [even_contrast(cut_window(grey, body, CHEST), CHEST_CONTRAST * CHEST.pixels)]
+        before, self._chest = self._chest, (time, body, chest)
+        if before is None:
+            return np.zeros(2)
+        moved: np.ndarray = _coarse_to_fine(_TRUNK, before[2], chest) + displacement(before[1], body)
+        return moved / (time - before[0])
 
 
 def _halves(window: np.ndarray) -> list[np.ndarray]:

@@ -14,7 +14,7 @@ GROUP = 5  # the best of each group of 5 or 6 local maxima is kept
 
 
 def grey_histogram(image: np.ndarray, bins: int = BINS) -> np.ndarray:
-    """Histogram of a grey image, (bins,) float32, sums to the number of pixels."""
+    """Histogram of a grey image, uint8 or float32, (bins,) float32, sums to the number of pixels."""
     return cv2.calcHist([image], [0], None, [bins], [0, 256]).ravel()
 
 

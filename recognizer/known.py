@@ -9,7 +9,7 @@ import numpy as np
 
 from recognizer.database import IRRELEVANT, Database, Rows
 from recognizer.metric import DiscriminantMetric
-from recognizer.mirror import mirror_map, twins
+from recognizer.mirror import asked, mirror_map, twins
 from recognizer.scatter import Scatter, scaled
 
 FOLDS = 6  # groups of persons
@@ -54,16 +54,21 @@ class KnownRows:
         own = self.database.rows.take(used)
         return own if self._twins is None else own.with_others(self._twins.take(used))
 
-    def metric(self, used: np.ndarray, shrinkage: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Learn mean (d,), scale (d,) and components (d, c) from the rows ``used`` (n,) bool and their twins."""
-        scatter = self._sums(used)
+    def metric(self, rows: np.ndarray, shrinkage: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Learn mean (d,), scale (d,) and components (d, c) from ``rows`` (n,) bool and their twins.
+
+        Components are 0 for what is not asked of a question.
+        """
+        scatter = self._sums(rows)
         if self._twins is not None:
             scatter = scatter + scatter.mirrored(*mirror_map(), self._twin_class)
-        if np.count_nonzero(scatter.counts) < 2:  # nothing to tell apart: every feature counts by its own spread
-            size = len(self._unit)
-            return scatter.mean(), scatter.deviation() + 1e-3, np.eye(size) / np.sqrt(size)
-        metric = DiscriminantMetric(shrinkage).fit_scatter(scatter)
-        return metric.mean_, metric.scale_, metric.components_
+        size, used = len(self._unit), asked()
+        scale, components = scatter.deviation() + 1e-3, np.eye(size)[:, used] / np.sqrt(np.count_nonzero(used))
+        if np.count_nonzero(scatter.counts) > 1:  # else nothing to tell apart: every feature counts by its own spread
+            metric = DiscriminantMetric(shrinkage).fit_scatter(scatter.of_features(used))
+            scale[used], components = metric.scale_, np.zeros((size, metric.components_.shape[1]))
+            components[used] = metric.components_
+        return scatter.mean(), scale, components
 
     def _sums(self, used: np.ndarray) -> Scatter:
         """Sums over the rows ``used``: of all rows, less whole groups, less what else is missing."""

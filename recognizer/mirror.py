@@ -11,7 +11,7 @@ import functools
 import numpy as np
 
 from recognizer.active import PHASES
-from recognizer.body_features import blank
+from recognizer.body_features import ONLY_MIRRORED, blank
 from recognizer.database import IRRELEVANT, Database, Rows
 
 _OPPOSITE = {"right": "left", "left": "right", "right_side": "left_side", "left_side": "right_side"}
@@ -29,6 +29,12 @@ def mirror_map() -> tuple[np.ndarray, np.ndarray]:
         sources.append(start[_twin(name)] + inside.ravel())
         signs.append(sign.ravel())
     return np.concatenate(sources), np.concatenate(signs)
+
+
+@functools.cache
+def asked() -> np.ndarray:
+    """Which features a model may look at, (d,) bool: not those that only its rows have, for their mirrored twins."""
+    return np.concatenate([np.full(np.size(values), name != ONLY_MIRRORED) for name, values in blank()])
 
 
 def mirrored(vectors: np.ndarray) -> np.ndarray:
@@ -79,8 +85,8 @@ def _twin(name: str) -> str:
         if name.startswith(prefix):
             side = name.removeprefix(prefix)
             return prefix + _OPPOSITE.get(side, side)
-    if name.startswith("motion"):
-        return "motion" if name == "motion_mirrored" else "motion_mirrored"
+    if name in (both := ("motion", ONLY_MIRRORED)):
+        return both[name == "motion"]
     if name.startswith("rhythm_"):
         side, axis = name.removeprefix("rhythm_").rsplit("_", 1)
         return f"rhythm_{_OPPOSITE.get(side, side)}_{axis}"

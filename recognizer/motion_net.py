@@ -1,6 +1,6 @@
 """What a small convolutional network sees in the person's window: 128 numbers, however long the clip.
 
-Four looks at every step (the picture, how it differs from rest, the flow, the head from near) become 96 numbers by
+What every step shows (the picture, how it differs from rest, the flow, the head from near) becomes 96 numbers by
 five layers of convolutions; three more over time, of growing reach, and their mean, maximum and spread over the clip
 become 128. The network was trained once to tell gestures and 55 other motions of simulated people apart
 (``docs/train_motion_net.py``), none of whom is in the shipped database. Only these numbers are used, as features among
@@ -51,34 +51,35 @@ class Look:
     """One step as the network reads it.
 
     Attributes:
-        pictures: (64, 80, 2) the window, and what differs in it from rest [PICTURE_UNIT].
+        picture: (64, 80) the window [PICTURE_UNIT].
         flow: (16, 20, 3) root of the flow right, down and of its size, in cells of half a head height [FLOW_UNIT].
         head: (76,) root of the flow at the head, right and down in 6×6 cells, of the chest's velocity and of the head's
             place [head heights, and per second].
     """
 
-    pictures: np.ndarray
+    picture: np.ndarray
     flow: np.ndarray
     head: np.ndarray
 
     @classmethod
-    def of(cls, step: Step, rest: np.ndarray) -> Look:
-        """Bring a step to the network's units; ``rest`` (64, 80) is the picture before the motion."""
-        picture = step.picture.clip(-BRIGHTEST, BRIGHTEST)
+    def of(cls, step: Step) -> Look:
+        """Bring a step to the network's units."""
+        picture = step.picture.clip(-BRIGHTEST, BRIGHTEST) / np.float32(PICTURE_UNIT)
         flow = cell_means(step.flow, 2) / FLOW_UNIT
         flow = np.stack([_root(flow[0]), _root(flow[1]), np.sqrt(np.hypot(*flow))], axis=-1)
         cells = [cv2.resize(f, (HEAD_CELLS, HEAD_CELLS), interpolation=cv2.INTER_AREA).ravel() for f in step.head_flow]
         head = _root(np.concatenate([*cells, step.torso, step.place]))
-        return cls(np.stack([picture, picture - rest], axis=-1) / np.float32(PICTURE_UNIT), flow, head)
+        return cls(picture, flow, head)
 
     def mirrored(self) -> Look:
-        """The look of the mirrored clip."""
+        """The look of the mirrored clip; as well of several looks, one above the other."""
         head = self.head.copy()
-        across = head[:-4].reshape(2, HEAD_CELLS, HEAD_CELLS)
-        across[...] = across[..., ::-1]
-        head[: HEAD_CELLS**2] *= -1
-        head[-4::2] *= -1
-        return Look(self.pictures[:, ::-1], self.flow[:, ::-1] * np.array([-1, 1, 1], np.float32), head)
+        across = head[..., :-4].reshape(*head.shape[:-1], 2, HEAD_CELLS, HEAD_CELLS)[..., ::-1]
+        head[..., :-4] = across.reshape(*head.shape[:-1], -1)
+        head[..., : HEAD_CELLS**2] *= -1
+        head[..., -4::2] *= -1
+        turned = self.flow[..., ::-1, :] * np.array([-1, 1, 1], np.float32)
+        return Look(self.picture[..., ::-1], turned, head)
 
 
 def _root(values: np.ndarray) -> np.ndarray:
@@ -88,9 +89,14 @@ def _root(values: np.ndarray) -> np.ndarray:
 
 @dataclasses.dataclass(frozen=True)
 class MotionNet:
-    """The layers, in the order in which they are applied."""
+    """The layers, in the order in which they are applied.
+
+    The first was trained on two pictures, the window and how it differs from rest. It is linear before its offsets, so
+    the window alone is read with the sum of both weights, and what rest takes away is worked out once a clip.
+    """
 
     space: tuple[Layer, ...]
+    rest: np.ndarray
     seen: Layer
     head: Layer
     time: tuple[Layer, ...]
@@ -101,13 +107,19 @@ class MotionNet:
         """Read the shipped weights."""
         return _shipped()
 
-    def steps(self, looks: Sequence[Look]) -> np.ndarray:
-        """Numbers (m, 96) of m steps."""
-        maps, flow = np.stack([look.pictures for look in looks]), np.stack([look.flow for look in looks])
-        for layer, stride in zip(self.space, STRIDES, strict=True):
+    def first(self, rest: np.ndarray) -> Layer:
+        """The first layer for m persons whose windows at rest are ``rest``, (m, 64, 80) [PICTURE_UNIT]."""
+        first = self.space[0]
+        taken = _patches(rest[..., None], self.rest, STRIDES[0]) @ self.rest
+        return Layer(first.weights, first.offsets - taken)
+
+    def steps(self, looks: Sequence[Look], first: Layer) -> np.ndarray:
+        """Numbers (m, 96) of m steps; ``first`` as :meth:`first` gives it for one person or for m."""
+        maps, flow = np.stack([look.picture for look in looks])[..., None], np.stack([look.flow for look in looks])
+        for layer, stride in zip((first, *self.space[1:]), STRIDES, strict=True):
             if stride == 1:
                 maps = np.concatenate([maps, flow], axis=-1)
-            maps = layer(_patches(maps, layer, stride))
+            maps = layer(_patches(maps, layer.weights, stride))
         head = self.head(np.stack([look.head for look in looks]))
         return np.concatenate([self.seen(maps.reshape(len(looks), -1)), head], axis=1)
 
@@ -120,10 +132,10 @@ class MotionNet:
         return self.whole(np.concatenate([found.mean(axis=1), found.max(axis=1), spread], axis=1))
 
 
-def _patches(maps: np.ndarray, layer: Layer, stride: int) -> np.ndarray:
-    """What each output of a convolution over maps (m, h, w, c) reads, (m, h/stride, w/stride, d); 0 outside."""
+def _patches(maps: np.ndarray, weights: np.ndarray, stride: int) -> np.ndarray:
+    """What a convolution with weights (d, n) reads of maps (m, h, w, c), (m, h/stride, w/stride, d); 0 outside."""
     count, height, width, channels = maps.shape
-    side = round((len(layer.weights) / channels) ** 0.5)
+    side = round((len(weights) / channels) ** 0.5)
     around = side // 2
     padded = np.zeros((count, height + 2 * around, width + 2 * around, channels), np.float32)
     padded[:, around:-around, around:-around] = maps
@@ -151,8 +163,11 @@ def _shipped() -> MotionNet:
     def layer(name: str) -> Layer:
         return Layer(arrays[f"{name}_weights"], arrays[f"{name}_offsets"])
 
+    first = arrays["space0_weights"].reshape(-1, 2, arrays["space0_offsets"].size)
+    arrays["space0_weights"] = first.sum(axis=1)
     return MotionNet(
         tuple(layer(f"space{k}") for k in range(len(STRIDES))),
+        first[:, 1],
         layer("seen"),
         layer("head"),
         tuple(layer(f"time{k}") for k in range(len(DILATIONS))),

@@ -6,42 +6,42 @@ from collections import deque
 
 import numpy as np
 
-from recognizer.motion_net import BRIGHTEST, FEATURES, REST, Look, MotionNet
+from recognizer.motion_net import FEATURES, REST, Layer, Look, MotionNet
 from recognizer.window import Step
 
 
 class MotionWatch:
-    """Watches steps, and what they would be in the mirrored clip, with :class:`recognizer.motion_net.MotionNet`.
+    """Watches steps with :class:`recognizer.motion_net.MotionNet`.
 
     Args:
         kept: how many steps; those before the last ``kept`` are forgotten.
+        mirrored: watch what they would be in the mirrored clip, too.
     """
 
-    def __init__(self, kept: int) -> None:
+    def __init__(self, kept: int, mirrored: bool = False) -> None:
         self._net = MotionNet.load()
+        self._mirrored = mirrored
         self._rows: deque[np.ndarray] = deque(maxlen=kept)
-        self._first: list[Step] = []
-        self._rest: np.ndarray | None = None
+        self._waiting: list[list[Look]] = []
+        self._first: Layer | None = None
 
     def push(self, step: Step) -> None:
         """Take the next step; the first few wait until rest is known."""
-        if self._rest is not None:
-            self._look(step, self._rest)
-            return
-        self._first.append(step)
-        if len(self._first) == REST:
-            self._rest = np.mean([first.picture.clip(-BRIGHTEST, BRIGHTEST) for first in self._first], axis=0)
-            for first in self._first:
-                self._look(first, self._rest)
-            self._first.clear()
-
-    def _look(self, step: Step, rest: np.ndarray) -> None:
-        look = Look.of(step, rest)
-        self._rows.append(self._net.steps([look, look.mirrored()]))
+        look = Look.of(step)
+        self._waiting.append([look, look.mirrored()] if self._mirrored else [look])
+        if self._first is None:
+            if len(self._waiting) < REST:
+                return
+            rest = np.mean([[look.picture for look in looks] for looks in self._waiting], axis=0)
+            self._first = self._net.first(rest)
+        self._rows.extend(self._net.steps(looks, self._first) for looks in self._waiting)
+        self._waiting.clear()
 
     @property
     def features(self) -> np.ndarray:
-        """(2, 128) of the clip and of the mirrored one; 0 before there were three steps."""
-        if not self._rows:
-            return np.zeros((2, FEATURES), np.float32)
-        return self._net.clips(np.stack(self._rows, axis=1))
+        """(2, 128) of the clip and of the mirrored one if it was watched, else 0; 0 before there were three steps."""
+        features = np.zeros((2, FEATURES), np.float32)
+        if self._rows:
+            found = self._net.clips(np.stack(self._rows, axis=1))
+            features[: len(found)] = found
+        return features

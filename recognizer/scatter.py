@@ -65,6 +65,11 @@ class Scatter:
     def _with(self, counts: np.ndarray, sums: np.ndarray, products: np.ndarray) -> Scatter:
         return Scatter(self.origin, self.unit, counts, sums, products)
 
+    def of_features(self, kept: np.ndarray) -> Scatter:
+        """Return what is known of some features, a mask (d,)."""
+        products = self.products[np.ix_(kept, kept)]
+        return Scatter(self.origin[kept], self.unit[kept], self.counts, self.sums[:, kept], products)
+
     def mean(self) -> np.ndarray:
         """Mean of all rows, (d,)."""
         mean: np.ndarray = self.origin + self.unit * self.sums.sum(axis=0) / self.counts.sum()

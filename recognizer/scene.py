@@ -32,7 +32,7 @@ class Scene:
 
     def observe(self, sample: Sample) -> None:
         """Compare a sample with the one before."""
-        histogram = grey_histogram(sample.grey, 32)
+        histogram = grey_histogram(sample.small, 32)
         self.cut = False
         if self._before is not None:
             alike = histogram_intersection(self._before[0], histogram)

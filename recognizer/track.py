@@ -34,6 +34,7 @@ class Track:
         first_index: number of the first frame in its source.
         source: name for messages.
         find_body: follow the person's window as well; the thesis's method does without.
+        mirrored: let the network watch the mirrored clip, too, for a row that will stand for both.
 
     Attributes:
         regions: moving regions of each kept sample but the first of the clip.
@@ -41,7 +42,14 @@ class Track:
         steps: what the person's window shows; see :meth:`end`.
     """
 
-    def __init__(self, fps: float, first_index: int = 0, source: str = "stream", find_body: bool = True) -> None:
+    def __init__(
+        self,
+        fps: float,
+        first_index: int = 0,
+        source: str = "stream",
+        find_body: bool = True,
+        mirrored: bool = False,
+    ) -> None:
         self.source = source
         self.sampler = Sampler(fps, first_index)
         kept = self.sampler.kept
@@ -53,7 +61,7 @@ class Track:
         self._follower: HeadFollower | None = None
         self._head = HeadMotion()
         self._head_rows: deque[np.ndarray] = deque(maxlen=kept * LOOKS)
-        self._watch = MotionWatch(kept) if find_body else None
+        self._watch = MotionWatch(kept, mirrored) if find_body else None
         self.scene = Scene()
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
@@ -76,7 +84,7 @@ class Track:
 
     @property
     def motion(self) -> np.ndarray:
-        """(2, 128) what the network sees in the clip and in the mirrored one; see :class:`MotionWatch`."""
+        """(2, 128) what the network sees in the clip, and in the mirrored one if asked; see :class:`MotionWatch`."""
         assert self._watch is not None
         return self._watch.features
 
@@ -120,8 +128,7 @@ class Track:
         for _ in range(min(count, len(self._waiting))):
             sample = self._waiting.popleft()
             head = self._follower.push(sample.grey)
-            rows = (self._head.push(time, grey, head) for time, grey in sample.looks)
-            self._head_rows.extend(row for row in rows if row is not None)
+            self._head_rows.extend(self._head.push(sample.looks, head))
             step = self._windows.push(sample, head)
             if step is not None:
                 self.steps.append(step)
@@ -143,13 +150,13 @@ class Track:
             self._work_off(len(self._waiting))
 
 
-def track_clip(clip: Clip, find_body: bool = True) -> Track:
-    """Run all frames of a clip through a :class:`Track`.
+def track_clip(clip: Clip, find_body: bool = True, mirrored: bool = False) -> Track:
+    """Run all frames of a clip through a :class:`Track`; arguments as there.
 
     Raises:
         ClipError: the clip cannot be read or is too short.
     """
-    track = Track(clip.fps, clip.frames[0], clip.source, find_body)
+    track = Track(clip.fps, clip.frames[0], clip.source, find_body, mirrored)
     for frame in clip:
         track.push(frame)
     track.end()

@@ -44,9 +44,8 @@ def bulge() -> np.ndarray:
 def measured(first: np.ndarray, second: np.ndarray, body: Body = BODY, after: Body | None = None) -> dict[str, float]:
     """Motion between two pictures [head heights per frame], of a head at ``body`` and then at ``after``."""
     head = HeadMotion()
-    assert head.push(0.0, first, body) is None
-    row = head.push(SECONDS, second, after or body)
-    assert row is not None
+    assert head.push([(0.0, first)], body) == []
+    (row,) = head.push([(SECONDS, second)], after or body)
     assert row[:2] == pytest.approx([SECONDS, SECONDS], rel=1e-6)
     return dict(zip(NAMES, (row[2:10] * SECONDS).tolist(), strict=True))
 

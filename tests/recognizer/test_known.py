@@ -8,7 +8,7 @@ import pytest
 from recognizer.body_model import BodyModel
 from recognizer.known import KnownRows
 from recognizer.metric import DiscriminantMetric
-from recognizer.mirror import mirrored, mirrored_map
+from recognizer.mirror import asked, mirrored, mirrored_map
 from recognizer.scatter import Scatter, scaled
 from tests.recognizer.test_database import database
 
@@ -58,14 +58,16 @@ def test_leaving_rows_out_is_learning_without_them() -> None:
     used = (made.persons != "p1") & (np.arange(len(made)) != 3)
     known = KnownRows(made)
     mean, scale, components = known.metric(used, 0.3)
-    left = made.features[used]
+    left, seen = made.features[used], asked()
     both = np.concatenate([left, mirrored(left)])
     kept = known.rows(used)
     classes = np.where(kept.labels == "irrelevant", kept.actions, kept.labels)
-    plain = DiscriminantMetric(0.3).fit(both, classes)
-    np.testing.assert_allclose(mean, plain.mean_, atol=1e-4)
-    np.testing.assert_allclose(scale, plain.scale_, rtol=1e-3)
-    ours, theirs = (left - mean) / scale @ components, plain.transform(left)
+    plain = DiscriminantMetric(0.3).fit(both[:, seen], classes)
+    np.testing.assert_allclose(mean[seen], plain.mean_, atol=1e-4)
+    np.testing.assert_allclose(scale[seen], plain.scale_, rtol=1e-3)
+    assert not components[~seen].any()
+    assert 0 < np.count_nonzero(~seen) < np.count_nonzero(seen) / 20
+    ours, theirs = (left - mean) / scale @ components, plain.transform(left[:, seen])
     apart = [np.linalg.norm(z[:, None] - z[None], axis=2) for z in (ours, theirs)]
     np.testing.assert_allclose(apart[0], apart[1], rtol=0.02, atol=0.02)
 
@@ -85,5 +87,6 @@ def test_a_learner_answers_as_a_model_of_the_rows_alone() -> None:
     for vector in made.features[~used]:
         a, b = one.decide(vector), other.decide(vector)
         assert (a.nearest, a.rejected) == (b.nearest, b.rejected)
-        assert a.neighbours[0].source == b.neighbours[0].source
-        assert a.neighbours[0].distance == pytest.approx(b.neighbours[0].distance, rel=0.02)
+        nearest = a.neighbours[0]  # here and there two rows are as near, but for rounding
+        there = {neighbour.source: neighbour.distance for neighbour in b.neighbours}
+        assert nearest.distance == pytest.approx(there[nearest.source], rel=0.02)
