@@ -17,6 +17,7 @@ cut off at the ends.
 from __future__ import annotations
 
 import argparse
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -254,7 +255,11 @@ def main() -> None:
     clips = Clips(entries, asked.set / "looks.npz")
     net = Net(clips.classes).to(memory_format=torch.channels_last)
     if asked.begin:
-        net.load_state_dict(torch.load(asked.begin, weights_only=True))
+        try:
+            net.load_state_dict(torch.load(asked.begin, weights_only=True))
+        except (OSError, RuntimeError, pickle.UnpicklingError) as error:
+            said = str(error).splitlines()[0]
+            parser.error(f"{asked.begin} does not fit a network of {clips.classes} motions: {said}")
     first = np.unique([entry.person for entry in entries])[: asked.persons]
     chosen = np.flatnonzero(np.isin([entry.person for entry in entries], first))
     train(net, clips, chosen, asked.epochs, asked.rate, asked.out / "motion_net.pt")

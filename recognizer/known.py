@@ -57,7 +57,7 @@ class KnownRows:
     def metric(self, rows: np.ndarray, shrinkage: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Learn mean (d,), scale (d,) and components (d, c) from ``rows`` (n,) bool and their twins.
 
-        Components are 0 for what is not asked of a question.
+        Components are 0 for what only rows have (:func:`recognizer.mirror.asked`).
         """
         scatter = self._sums(rows)
         if self._twins is not None:

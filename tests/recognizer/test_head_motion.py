@@ -68,6 +68,20 @@ def test_where_the_window_is_does_not_count(texture: np.ndarray) -> None:
     assert followed["right"] + followed["turn"] == pytest.approx(11.0 / BODY.head, abs=0.04)
 
 
+def test_the_head_is_measured_in_every_frame_and_the_chest_between_samples(texture: np.ndarray) -> None:
+    """The head turns to and fro from frame to frame while the whole person sways steadily."""
+    head, sway, turns = HeadMotion(), 0.8, (0.0, 2.5, 0.0, 2.5, 0.0, 2.5)
+    frames = [(k * SECONDS, moved(texture, sway * k + turn * bulge(), 0.0)) for k, turn in enumerate(turns)]
+    rows = [*head.push(frames[:1], BODY), *head.push(frames[1:3], BODY), *head.push(frames[3:], BODY)]
+    assert len(rows) == len(frames) - 1
+    found = dict(zip(("time", "seconds", *NAMES), np.array(rows).T, strict=False))
+    np.testing.assert_allclose(found["time"], [time for time, _ in frames[1:]], rtol=1e-6)
+    np.testing.assert_allclose(found["seconds"], SECONDS, rtol=1e-5)
+    assert np.sign(found["turn"]).tolist() == [1, -1, 1, -1, 1]
+    np.testing.assert_allclose(found["chest_right"], sway / BODY.head / SECONDS, rtol=0.1)
+    assert len(set(found["chest_right"][:2].tolist())) == len(set(found["chest_right"][2:].tolist())) == 1
+
+
 @pytest.mark.parametrize(("name", "other"), [("turn", "nod"), ("nod", "turn")])
 def test_who_turns_moves_the_middle_and_leaves_the_rim(texture: np.ndarray, name: str, other: str) -> None:
     pixels = 3.0 * bulge()

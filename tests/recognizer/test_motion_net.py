@@ -44,7 +44,7 @@ def test_a_step_is_what_plain_correlations_give() -> None:
     for layer, stride in zip(net.space, STRIDES, strict=True):
         if stride == 1:
             maps = np.concatenate([maps, look.flow], axis=-1)
-        weights = layer.weights if len(maps) < 64 else first
+        weights = first if layer is net.space[0] else layer.weights
         side = round((len(weights) / maps.shape[-1]) ** 0.5)
         kernels = weights.reshape(side, side, maps.shape[-1], -1)
         around = [(side // 2,) * 2] * 2 + [(0, 0)]
