@@ -1,10 +1,15 @@
 """Learn how heads are found and fitted anew: ``MUJOCO_GL=egl python docs/train_head_finder.py SET [SET …]``.
 
-Each SET is a folder that ``nao-sim film`` made; its shots are staged again to see where the heads are. The shipped
-templates and fit were learned with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2
---irrelevant 400 --seed 7 --restless 0.3``, 1,438 clips (who walks is left out). The ranking was learned afterwards with
-``--ranking --first 40 --persons 80 --every 1`` on ``nao-sim film --out SET --persons 120 --takes 1 --irrelevant 1200
---seed 7``, 2,000 clips of other persons, walks included. None of all these takes part in the database and its figures.
+Each SET is a folder that ``nao-sim film`` made; its shots are staged again to see where the heads are. Three parts are
+learned one after the other, each on persons whom the one before does not know:
+
+- the template and the fit with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2
+  --irrelevant 400 --seed 7 --restless 0.3``, 1,438 clips (who walks is left out);
+- the closer look with ``--part closer --persons 60 --every 1`` on the film that the motion network was trained on
+  (docs/people.md; waves were a little different then), 7,600 clips;
+- the ranking with ``--part ranking --first 60 --persons 30 --every 1`` on the same film, 3,800 clips of other persons.
+
+None of all these takes part in the database and its figures.
 """
 
 from __future__ import annotations
@@ -16,9 +21,9 @@ from typing import Any
 import numpy as np
 
 from nao_sim.people.heads import heads_of_film
-from recognizer.finder_training import train, train_ranking
+from recognizer import closer, ranking
+from recognizer.finder_training import train, train_closer, train_ranking
 from recognizer.known_heads import KnownHead
-from recognizer.ranking import FILE
 
 
 def known_heads(folder: Path, persons: range, in_view: bool) -> list[KnownHead]:
@@ -41,17 +46,21 @@ def main() -> None:
     parser.add_argument("sets", nargs="+", type=Path)
     parser.add_argument("--persons", type=int, default=12, help="use so many of each set")
     parser.add_argument("--first", type=int, default=0, help="number of the first of them")
-    parser.add_argument("--ranking", action="store_true", help="learn to choose among candidates, nothing else")
+    parser.add_argument("--part", choices=("template", "closer", "ranking"), default="template", help="what to learn")
     parser.add_argument("--every", type=int, default=2, help="use one clip of so many")
     parser.add_argument("--out", type=Path, default=Path("recognizer"), help="folder of the files of weights")
     asked = parser.parse_args()
     persons = range(asked.first, asked.first + asked.persons)
-    heads = [head for folder in asked.sets for head in known_heads(folder, persons, not asked.ranking)[:: asked.every]]
+    heads = [
+        head for folder in asked.sets for head in known_heads(folder, persons, asked.part == "template")[:: asked.every]
+    ]
     print(f"{len(heads)} clips with known heads")
-    if asked.ranking:
-        train_ranking(heads).save(asked.out / FILE)
-        return
-    train(heads, asked.out / "head_shoulders.npz", asked.out / "head_fit.npz")
+    if asked.part == "closer":
+        closer.save(train_closer(heads), asked.out / closer.FILE)
+    elif asked.part == "ranking":
+        train_ranking(heads).save(asked.out / ranking.FILE)
+    else:
+        train(heads, asked.out / "head_shoulders.npz", asked.out / "head_fit.npz")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from recognizer.finder import Body, best_bodies, closer_look, closer_template, score_maps, template
+from recognizer.closer import closer_score
+from recognizer.finder import Body, best_bodies, closer_look, score_maps, template
 from recognizer.head_fit import fit, fit_weights, moved
 from recognizer.ranking import Ranking
 from recognizer.samples import Sample
@@ -64,8 +65,7 @@ class BodyFinder:
         height, width = grey.shape
         found = best_bodies(score_maps(grey, *template()), (width, height))
         cells = closer_look(grey, found)
-        weights, offset = closer_template()
-        return moved(found, cells, *fit_weights()[0]), cells @ weights + offset
+        return moved(found, cells, *fit_weights()[0]), closer_score(cells)
 
     def decide(self) -> Body:
         """Choose among the candidates seen so far; the same answer whenever it is called again."""

@@ -21,6 +21,8 @@ MAX_SIDE = 640  # px; larger frames (up to 8K and beyond) are scaled down while 
 MIN_SIDE = 32  # px; below this a head is a single pixel
 FPS_RANGE = (1.0, 120.0)  # outside it the header is taken to be wrong
 ASSUMED_FPS = 25.0  # used when the header does not say
+# Pixels of a Motion JPEG frame up to which several threads cost more than they save (a tenth of a whole answer).
+ONE_THREAD = 640 * 480
 STILL_SUFFIXES = {".jpg", ".jpeg", ".jpe", ".png", ".bmp", ".webp", ".tif", ".tiff", ".ppm", ".pgm"}
 
 
@@ -36,6 +38,7 @@ class Clip:
         frames: first and last frame to use (both included, from 0); None for open ends.
         still: True for a photo.
         warnings: what was odd about the file, for the user.
+        threads: that decode it; 0 leaves it to FFmpeg.
     """
 
     source: str
@@ -45,6 +48,7 @@ class Clip:
     frames: tuple[int, int | None] = (0, None)
     still: bool = False
     warnings: tuple[str, ...] = ()
+    threads: int = 0
     array: np.ndarray | None = dataclasses.field(default=None, repr=False, compare=False)
 
     def __iter__(self) -> Iterator[np.ndarray]:
@@ -55,7 +59,7 @@ class Clip:
         elif self.still:
             yield _fit(_read_still(Path(self.source)))
         else:
-            yield from _decode(self.source, first, last)
+            yield from _decode(self.source, first, last, self.threads)
 
     @classmethod
     def from_array(cls, frames: Sequence[np.ndarray] | np.ndarray, fps: float, source: str = "array") -> Clip:
@@ -132,6 +136,7 @@ def _open_video(file: Path, first: int, last: int | None) -> Clip:
             raise ClipError(f"{file} is not a video that FFmpeg can read; convert it to mp4 or avi")
         fps, warnings = _plausible_fps(capture.get(cv2.CAP_PROP_FPS))
         promised = capture.get(cv2.CAP_PROP_FRAME_COUNT)
+        codec = (int(capture.get(cv2.CAP_PROP_FOURCC)) & 0xFFFFFFFF).to_bytes(4, "little")
         count = int(promised) if math.isfinite(promised) and 0 < promised < 1e8 else None
         ok, frame = capture.read()
         if not ok or frame is None:
@@ -142,11 +147,12 @@ def _open_video(file: Path, first: int, last: int | None) -> Clip:
     if count is not None and first >= count:
         raise ClipError(f"{file} has {count} frames; frames {first}: starts after its end")
     height, width = _fit(frame).shape[:2]
-    return Clip(str(file), fps, (width, height), count, (first, last), warnings=warnings)
+    alone = codec == b"MJPG" and frame.shape[0] * frame.shape[1] <= ONE_THREAD
+    return Clip(str(file), fps, (width, height), count, (first, last), warnings=warnings, threads=int(alone))
 
 
-def _decode(source: str, first: int, last: int | None) -> Iterator[np.ndarray]:
-    capture = cv2.VideoCapture(source, cv2.CAP_FFMPEG)
+def _decode(source: str, first: int, last: int | None, threads: int) -> Iterator[np.ndarray]:
+    capture = cv2.VideoCapture(source, cv2.CAP_FFMPEG, [cv2.CAP_PROP_N_THREADS, threads] if threads else [])
     index = 0
     try:
         while last is None or index <= last:

@@ -16,6 +16,8 @@ import cv2
 import numpy as np
 from scipy import fft
 
+from recognizer.shrinking import halved, halves
+
 HEAD = 6.0  # px: height of a head in the pyramid level where the template finds it
 CELL = 2  # px
 BINS = 6  # unsigned gradient orientations
@@ -114,11 +116,6 @@ def template() -> tuple[np.ndarray, float]:
     return _stored()["weights"], float(_stored()["offset"])
 
 
-def closer_template() -> tuple[np.ndarray, float]:
-    """Return the weights (2800,) of the closer look and their offset."""
-    return _stored()["fine_weights"].ravel(), float(_stored()["fine_offset"])
-
-
 def score_maps(grey: np.ndarray, weights: np.ndarray, offset: float) -> list[tuple[float, np.ndarray]]:
     """Return (head height [px], score of each cell as the head's centre) for every level.
 
@@ -179,7 +176,9 @@ def _fine_cells(grey: np.ndarray, body: Body) -> np.ndarray:
     # The head's centre stands where it stands in the coarse template.
     left = body.x - (HEAD_AT[0] + 0.5) / WIDE * FINE * CELL * scale - _FINE_RIM * CELL * scale
     top = body.y - (HEAD_AT[1] + 0.5) / TALL * FINE * CELL * scale - _FINE_RIM * CELL * scale
-    crop = _square(grey, round(left), round(top), max(2, round(side * scale)))
+    times = max(0, halves(scale) - 1)  # the rest by area
+    size = max(1, round(side * scale / 2**times)) * 2**times
+    crop = halved(_square(grey, round(left), round(top), max(2, size)), times)
     window = cv2.resize(crop, (side, side), interpolation=cv2.INTER_AREA if scale > 1 else cv2.INTER_LINEAR)
     return cells(window)[_FINE_RIM:-_FINE_RIM, _FINE_RIM:-_FINE_RIM].ravel()
 

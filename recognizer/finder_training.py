@@ -1,7 +1,7 @@
 """How the head-and-shoulders templates of :mod:`recognizer.finder` are learned from pictures with known heads.
 
-Small linear steps, minutes on a laptop: a coarse template against the backgrounds it mistakes for people, the fit of
-the exact place, a finer template against the coarse one's mistakes; then, from clips of other persons, weights that
+Small steps, minutes on a laptop: a coarse template against the backgrounds it mistakes for people and the fit of the
+exact place, both linear; a closer look at what the template likes; then, from clips of other persons, weights that
 choose among a clip's candidates.
 """
 
@@ -16,22 +16,23 @@ import numpy as np
 from recognizer import finder
 from recognizer.body import BodyFinder
 from recognizer.clip import open_clip
+from recognizer.closer import learn
 from recognizer.finder import CELL, CHANNELS, HEAD, HEAD_AT, TALL, WIDE, Body
-from recognizer.head_fit import moved
+from recognizer.head_fit import fit_weights, moved
 from recognizer.head_fit_training import learn_fit, save_fit
+from recognizer.hidden_layer import HiddenLayer
 from recognizer.known_heads import KnownHead, Picture, pictures_of
 from recognizer.ranking import Ranking
 from recognizer.samples import Sampler
 
-COARSE_RIDGE, FINE_RIDGE = 30.0, 150.0
+COARSE_RIDGE = 30.0
 ROUNDS = 3  # of adding what is mistaken for a person
 RANDOM_PLACES, HARD_PLACES = 20, 20  # a picture
 Weights = tuple[np.ndarray, float]
-Step = tuple[np.ndarray, np.ndarray]
 
 
 def train(heads: Sequence[KnownHead], out: Path, fit: Path, seed: int = 0, tell: Callable[[str], None] = print) -> None:
-    """Learn all steps and write the weights files.
+    """Learn the template and the fit, and write their weights.
 
     Args:
         heads: clips with known heads, of several persons.
@@ -44,15 +45,15 @@ def train(heads: Sequence[KnownHead], out: Path, fit: Path, seed: int = 0, tell:
     coarse = _coarse([picture for known in heads for picture in pictures_of(known, (1,))], rng, tell)
     steps = learn_fit([picture for known in heads for picture in pictures_of(known)], rng, tell)
     save_fit(steps, fit)
-    clips = [_candidates(known, coarse, steps[0]) for known in heads]
+    np.savez_compressed(out, weights=coarse[0].astype(np.float16), offset=np.float32(coarse[1]))
+
+
+def train_closer(heads: Sequence[KnownHead], seed: int = 0, tell: Callable[[str], None] = print) -> HiddenLayer:
+    """Learn to tell heads from the other places that the shipped template likes."""
+    clips = [_candidates(known) for known in heads]
     cells, right = (np.concatenate(parts) for parts in zip(*clips, strict=True))
     tell(f"{len(right)} candidates, {int(right.sum())} of them heads")
-    fine = balanced_ridge(cells.astype(np.float32), right, FINE_RIDGE)
-    np.savez_compressed(
-        out,
-        weights=coarse[0].astype(np.float16), offset=np.float32(coarse[1]),
-        fine_weights=fine[0].astype(np.float16), fine_offset=np.float32(fine[1]),
-    )  # fmt: skip
+    return learn(cells, right, seed, tell)
 
 
 def train_ranking(heads: Sequence[KnownHead], tell: Callable[[str], None] = print) -> Ranking:
@@ -176,23 +177,22 @@ class _Observer(BodyFinder):
 
 
 class _Collector(_Observer):
-    """An observer with weights in training that keeps what the closer look would see."""
+    """An observer that keeps what the closer look sees."""
 
-    def __init__(self, coarse: Weights, step: Step) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self.coarse, self.step = coarse, step
         self.cells: list[np.ndarray] = []
 
     def search(self, grey: np.ndarray) -> tuple[list[Body], np.ndarray]:
-        """Candidates by the weights in training; their closer look is scored later."""
+        """Candidates whose closer look is not scored."""
         height, width = grey.shape
-        found = finder.best_bodies(finder.score_maps(grey, *self.coarse), (width, height))
+        found = finder.best_bodies(finder.score_maps(grey, *finder.template()), (width, height))
         self.cells.append(finder.closer_look(grey, found))
-        return moved(found, self.cells[-1], *self.step), np.zeros(len(found))
+        return moved(found, self.cells[-1], *fit_weights()[0]), np.zeros(len(found))
 
 
-def _candidates(known: KnownHead, coarse: Weights, step: Step) -> tuple[np.ndarray, np.ndarray]:
+def _candidates(known: KnownHead) -> tuple[np.ndarray, np.ndarray]:
     """What the closer look sees of a clip's candidates (n, d), and which of them are the head (n,)."""
-    collector = _Collector(coarse, step)
+    collector = _Collector()
     right = collector.watch(known)
     return np.concatenate(collector.cells).astype(np.float16), right

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Iterator
@@ -65,7 +66,13 @@ def _modes(signals: np.ndarray, sideways: np.ndarray, floor: float) -> np.ndarra
     size = np.sqrt((centred * centred).mean(axis=0)) + floor
     together = centred.T @ centred / len(centred) / np.outer(size, size)
     together = np.where(sideways[:, None] == sideways[None], together, np.abs(together))
-    return np.concatenate([np.log(size), together[np.triu_indices(len(size), 1)]])
+    return np.concatenate([np.log(size), together[_pairs(len(size))]])
+
+
+@functools.cache
+def _pairs(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows and columns of a square matrix above its diagonal."""
+    return np.triu_indices(count, 1)
 
 
 def running_mean(values: np.ndarray, steps: int) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from recognizer.database import IRRELEVANT, Rows
-from recognizer.mirror import mirrored_map
+from recognizer.mirror import mirrored, mirrored_map
 
 WIDER = 3  # times as many neighbours tell how dense a class is around
 SIMILAR = 3  # times as many rows may one kind have as another beside which it is looked at
@@ -44,6 +44,7 @@ class MeasuredRows:
         # In single precision and one product: a database is projected in a tenth of a second.
         self._map = (metric.components / metric.scale[:, None]).astype(np.float32)
         self._origin = (metric.mean @ (metric.components / metric.scale[:, None])).astype(np.float32)
+        self._low, self._high = _ranges(features, mirror)
         projected = self.project(features)
         if mirror:
             projected = np.concatenate([projected, features @ mirrored_map(self._map) - self._origin])
@@ -57,8 +58,12 @@ class MeasuredRows:
         self._kinds_by_size = _by_size(rows_of_kind, len(order))
 
     def project(self, vectors: np.ndarray) -> np.ndarray:
-        """Bring feature vectors (n, d) into the metric, (n, c) float32."""
-        projected: np.ndarray = vectors.astype(np.float32, copy=False) @ self._map - self._origin
+        """Bring feature vectors (n, d) into the metric, (n, c) float32; no feature leads further than the rows do.
+
+        What a camera or a room makes larger than any row has it would weigh as much as it likes.
+        """
+        within = np.clip(vectors.astype(np.float32, copy=False), self._low, self._high)
+        projected: np.ndarray = within @ self._map - self._origin
         return projected
 
     def distances(self, vectors: np.ndarray) -> np.ndarray:
@@ -116,6 +121,14 @@ class MeasuredRows:
         """What irrelevant motion the nearest irrelevant row shows."""
         rows = self.rows_of[int(np.searchsorted(self.labels, IRRELEVANT))]
         return str(self.rows.actions[rows.start + int(np.argmin(distances[rows]))])
+
+
+def _ranges(features: np.ndarray, mirror: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest value (d,) of each feature among rows (n, d), and their mirrored rows as well."""
+    ends = np.stack([features.min(axis=0), features.max(axis=0)]).astype(np.float32)
+    if mirror:
+        ends = np.concatenate([ends, mirrored(ends).astype(np.float32)])
+    return ends.min(axis=0), ends.max(axis=0)
 
 
 def _slices(names: np.ndarray, start: int = 0) -> tuple[np.ndarray, list[slice]]:

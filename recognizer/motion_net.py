@@ -108,13 +108,13 @@ class MotionNet:
         return _shipped()
 
     def first(self, rest: np.ndarray) -> Layer:
-        """The first layer for m persons whose windows at rest are ``rest``, (m, 64, 80) [PICTURE_UNIT]."""
+        """The first layer for a person whose window at rest is ``rest``, (64, 80) [PICTURE_UNIT]."""
         first = self.space[0]
-        taken = _patches(rest[..., None], self.rest, STRIDES[0]) @ self.rest
+        taken = _patches(rest[None, ..., None], self.rest, STRIDES[0]) @ self.rest
         return Layer(first.weights, first.offsets - taken)
 
     def steps(self, looks: Sequence[Look], first: Layer) -> np.ndarray:
-        """Numbers (m, 96) of m steps; ``first`` as :meth:`first` gives it for one person or for m."""
+        """Numbers (m, 96) of m steps of one person; ``first`` as :meth:`first` gives it."""
         maps, flow = np.stack([look.picture for look in looks])[..., None], np.stack([look.flow for look in looks])
         for layer, stride in zip((first, *self.space[1:]), STRIDES, strict=True):
             if stride == 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,20 +22,22 @@ class MotionWatch:
     def __init__(self, kept: int, mirrored: bool = False) -> None:
         self._net = MotionNet.load()
         self._mirrored = mirrored
-        self._rows: deque[np.ndarray] = deque(maxlen=kept)
+        self._rows: deque[tuple[np.ndarray, ...]] = deque(maxlen=kept)
         self._waiting: list[list[Look]] = []
-        self._first: Layer | None = None
+        self._first: list[Layer] = []
 
-    def push(self, step: Step) -> None:
-        """Take the next step; the first few wait until rest is known."""
-        look = Look.of(step)
-        self._waiting.append([look, look.mirrored()] if self._mirrored else [look])
-        if self._first is None:
-            if len(self._waiting) < REST:
-                return
-            rest = np.mean([[look.picture for look in looks] for looks in self._waiting], axis=0)
-            self._first = self._net.first(rest)
-        self._rows.extend(self._net.steps(looks, self._first) for looks in self._waiting)
+    def push(self, steps: Sequence[Step]) -> None:
+        """Take the next steps, several at once in less time; the first few wait until rest is known."""
+        looks = [Look.of(step) for step in steps]
+        self._waiting += [[look, look.mirrored()] if self._mirrored else [look] for look in looks]
+        if len(self._waiting) < (1 if self._first else REST):
+            return
+        if not self._first:
+            rest = np.mean([[look.picture for look in looks] for looks in self._waiting[:REST]], axis=0)
+            self._first = [self._net.first(picture) for picture in rest]
+        persons = zip(zip(*self._waiting, strict=True), self._first, strict=True)
+        found = [self._net.steps(looks, first) for looks, first in persons]
+        self._rows.extend(zip(*found, strict=True))
         self._waiting.clear()
 
     @property

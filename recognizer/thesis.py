@@ -20,7 +20,7 @@ from recognizer.neighbours import NeighbourClassifier
 from recognizer.track import Track
 
 METHOD = "thesis"
-VERSION = 1
+VERSION = 2
 STATES = 5
 COAXIAL = ("yes", "no")
 _N = len(VECTOR_NAMES)

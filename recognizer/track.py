@@ -21,7 +21,7 @@ from recognizer.steps import Steps
 from recognizer.window import Windows
 
 MIN_SAMPLES = 6  # six key frames make the five states of a large gesture
-FLOW_ITERATIONS = 30
+FLOW_ITERATIONS = 20  # few, because each flow begins with the one before
 ALPHA = 8.0
 CATCH_UP = 3  # samples worked off per new one, once the body is found
 
@@ -119,20 +119,23 @@ class Track:
             self._waiting.append(sample)
             self._finder.observe(sample)
             if self._finder.body is not None:
-                self._work_off(CATCH_UP)
+                self._work_off()
 
-    def _work_off(self, count: int) -> None:
+    def _work_off(self) -> None:
+        """Measure a few of the samples that have waited for the person to be found."""
         assert self._watch is not None
         if self._windows is None or self._follower is None:
             self._windows, self._follower = Windows(self.body), HeadFollower(self.body)
-        for _ in range(min(count, len(self._waiting))):
+        taken = []
+        for _ in range(min(CATCH_UP, len(self._waiting))):
             sample = self._waiting.popleft()
             head = self._follower.push(sample.grey)
             self._head_rows.extend(self._head.push(sample.looks, head))
             step = self._windows.push(sample, head)
             if step is not None:
                 self.steps.append(step)
-                self._watch.push(step)
+                taken.append(step)
+        self._watch.push(taken)
 
     def end(self) -> None:
         """Finish what is pending; call it after the last frame.
@@ -147,7 +150,8 @@ class Track:
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
         if self._finder is not None:
-            self._work_off(len(self._waiting))
+            while self._waiting:
+                self._work_off()
 
 
 def track_clip(clip: Clip, find_body: bool = True, mirrored: bool = False) -> Track:

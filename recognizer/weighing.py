@@ -16,25 +16,11 @@ from sklearn.exceptions import ConvergenceWarning
 from sklearn.linear_model import LogisticRegression
 from sklearn.neural_network import MLPClassifier
 
+from recognizer.hidden_layer import HiddenLayer
+
 STRENGTH = 1.0  # inverse of the pull towards equal weights
 HIDDEN, DECAY, ROUNDS = 96, 0.3, 40  # units of the network, pull of its weights towards 0, times it sees every row
 FARTHEST = 20.0  # logarithm that stands for a class without rows
-
-
-@dataclasses.dataclass(frozen=True)
-class Network:
-    """One hidden layer of rectified units: weights and offsets of both layers."""
-
-    hidden: np.ndarray
-    hidden_offsets: np.ndarray
-    output: np.ndarray
-    output_offsets: np.ndarray
-
-    def logits(self, inputs: np.ndarray) -> np.ndarray:
-        """Logarithms of the shares of (n, n_inputs), but for a constant of each row."""
-        units = np.maximum(inputs @ self.hidden + self.hidden_offsets, 0)
-        out: np.ndarray = units @ self.output + self.output_offsets
-        return out
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,7 +38,7 @@ class Weights:
 
     coefficients: np.ndarray
     offsets: np.ndarray
-    network: Network | None = None
+    network: HiddenLayer | None = None
 
     @classmethod
     def plain(cls, n_labels: int, n_kinds: int, power: float) -> Weights:
@@ -80,10 +66,10 @@ class Weights:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ConvergenceWarning)  # it is stopped early on purpose
             layers.fit(((every - mean) / spread).astype(np.float32), targets)
-        hidden = layers.coefs_[0] / spread[:, None]
-        hidden_offsets = layers.intercepts_[0] - mean @ hidden
-        output = _two_sided(layers.coefs_[1], layers.intercepts_[1])
-        return cls(coefficients.T, offsets, Network(hidden, hidden_offsets, *output))
+        units = HiddenLayer.of(layers, mean, spread)
+        output, output_offsets = _two_sided(units.output, units.output_offsets)
+        units = dataclasses.replace(units, output=output, output_offsets=output_offsets)
+        return cls(coefficients.T, offsets, units)
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
@@ -94,8 +80,8 @@ class Weights:
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Weights:
         """Return the weights whose :attr:`arrays` were stored."""
-        names = [field.name for field in dataclasses.fields(Network)]
-        network = Network(*(arrays[name] for name in names)) if names[0] in arrays else None
+        names = [field.name for field in dataclasses.fields(HiddenLayer)]
+        network = HiddenLayer(*(arrays[name] for name in names)) if names[0] in arrays else None
         return cls(arrays["linear"], arrays["linear_offsets"], network)
 
     def shares(self, distances: np.ndarray, allowed: np.ndarray) -> np.ndarray:
@@ -103,7 +89,7 @@ class Weights:
         labels, every = nearness(distances[None], len(self.offsets))
         logits = labels[0] @ self.coefficients.T + self.offsets
         if self.network is not None:
-            logits = (logits + self.network.logits(every)[0]) / 2
+            logits = (logits + self.network(every)[0]) / 2
         votes = np.where(allowed, np.exp(logits - logits[allowed].max()), 0.0)
         return votes / votes.sum()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import cv2
 import numpy as np
@@ -11,6 +12,7 @@ from recognizer.finder import Body
 from recognizer.flow import horn_schunck
 from recognizer.head_follow import displacement
 from recognizer.samples import Sample
+from recognizer.shrinking import halved, halves
 
 LEVELS, ITERATIONS, ALPHA = 3, 12, 6.0
 
@@ -63,7 +65,7 @@ class Step:
         seconds: since the sample before.
         picture: (64, 80) float32, the window with its contrast evened out.
         flow: (2, 64, 80) velocity right and down in the window WHOLE [head heights per second], 0 where slower
-            than STILL.
+            than STILL and beyond the image's border.
         speed: (64, 80) its magnitude.
         ways: (4, 8, 10) motion right, left, down and up, mean over cells of one head height.
         torso: (2,) mean velocity of chest and belly, slow motion included.
@@ -90,21 +92,32 @@ class Windows:
     def __init__(self, body: Body) -> None:
         self.body = body
         self._before: tuple[float, np.ndarray, np.ndarray, Body] | None = None
+        self._inside: np.ndarray | None = None
 
     def push(self, sample: Sample, head: Body) -> Step | None:
         """Take the next sample, in which the head is at ``head``; the first gives no step."""
         whole = even_contrast(cut_window(sample.grey, self.body, WHOLE), WHOLE.pixels / 2)
         face = even_contrast(cut_window(sample.grey, head, HEAD), HEAD.pixels / 4)
         before, self._before = self._before, (sample.time, whole, face, head)
-        if before is None:
+        if before is None or self._inside is None:
+            self._inside = in_view(self.body, sample.grey.shape)
             return None
         seconds = sample.time - before[0]
-        flow = np.stack(coarse_to_fine(before[1], whole)) / np.float32(WHOLE.pixels * seconds)
+        flow = np.stack(coarse_to_fine(before[1], whole)) * (self._inside / np.float32(WHOLE.pixels * seconds))
         head_flow = np.stack(coarse_to_fine(before[2], face)) / np.float32(HEAD.pixels)
         head_flow += displacement(before[3], head)[:, None, None]  # the window's own way
         pose = cut_window(sample.grey, self.body, POSE).astype(np.uint8)
         place = displacement(self.body, head)
         return make_step(sample.time, seconds, whole, flow, head_flow / np.float32(seconds), pose, place)
+
+
+def in_view(body: Body, shape: tuple[int, ...]) -> np.ndarray:
+    """1 where the window WHOLE shows the image (h, w), 0 beyond its border, (64, 80) float32.
+
+    What a window repeats of a noisy border would seem to flow.
+    """
+    x, y = body.x + GRID_X * body.head, body.y + GRID_Y * body.head
+    return ((x >= 0) & (x < shape[1]) & (y >= 0) & (y < shape[0])).astype(np.float32)
 
 
 def make_step(
@@ -140,30 +153,38 @@ def cut_window(grey: np.ndarray, body: Body, view: View) -> np.ndarray:
     scale = body.head / view.pixels
     width, height = view.size
     x, y = body.x + view.left * body.head, body.y + view.top * body.head
-    if scale > 1.5:  # shrink by area first, so that nothing is skipped; only what the window shows
-        left, right = _seen(x, width * scale, 2 * scale, grey.shape[1])
-        top, bottom = _seen(y, height * scale, 2 * scale, grey.shape[0])
-        size = (max(1, round((right - left) / scale)), max(1, round((bottom - top) / scale)))
-        fx, fy = size[0] / (right - left), size[1] / (bottom - top)
-        grey = cv2.resize(grey[top:bottom, left:right], size, interpolation=cv2.INTER_AREA)
-        matrix = np.array([[scale * fx, 0, (x - left) * fx], [0, scale * fy, (y - top) * fy]], np.float32)
-    else:
-        matrix = np.array([[scale, 0, x], [0, scale, y]], np.float32)
+    left = top = 0
+    unit = 2 ** (times := halves(scale))
+    if times:  # so that nothing is skipped; only what the window shows
+        left, right = _seen(x, width * scale, 2 * scale, grey.shape[1], unit)
+        top, bottom = _seen(y, height * scale, 2 * scale, grey.shape[0], unit)
+        grey = halved(grey[top:bottom, left:right], times)
+    # OpenCV counts from the middle of the first pixel, the window from its border.
+    step, column, row = scale / unit, (x + scale / 2 - left) / unit - 0.5, (y + scale / 2 - top) / unit - 0.5
+    matrix = np.array([[step, 0, column], [0, step, row]], np.float32)
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     return cv2.warpAffine(grey, matrix, view.size, flags=flags, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
 
 
-def _seen(start: float, length: float, margin: float, size: int) -> tuple[int, int]:
-    """First and last pixel (exclusive) of an image of ``size`` that a window needs, one at least."""
-    first = min(max(0, int(np.floor(start - margin))), size - 1)
-    return first, max(first + 1, min(size, int(np.ceil(start + length + margin))))
+def _seen(start: float, length: float, margin: float, size: int, unit: int) -> tuple[int, int]:
+    """First and last pixel (exclusive) of an image of ``size`` that a window needs: so many ``unit``, one at least."""
+    first = min(max(0, int(np.floor(start - margin))), max(0, size - unit))
+    last = min(size, int(np.ceil(start + length + margin)))
+    return first, first + max(1, (last - first) // unit) * unit
 
 
 def even_contrast(window: np.ndarray, sigma: float) -> np.ndarray:
     """Subtract the local mean and divide by the local deviation: light, shirts and exposure count less."""
-    detail = window - cv2.GaussianBlur(window, (0, 0), sigma)
-    deviation = np.sqrt(cv2.GaussianBlur(detail * detail, (0, 0), 1.5 * sigma))
+    detail = window - smoothed(window, sigma)
+    # Running sums of squares may end just below 0 where nothing varies.
+    deviation = np.sqrt(np.maximum(smoothed(detail * detail, 1.5 * sigma), 0))
     return detail * (25.0 / (deviation + 6.0))
+
+
+def smoothed(window: np.ndarray, sigma: float) -> np.ndarray:
+    """The mean of the mean over a square: nearly a Gaussian of deviation ``sigma`` [px], in half its time."""
+    side = 2 * round((math.sqrt(6 * sigma * sigma + 1) - 1) / 2) + 1
+    return cv2.blur(cv2.blur(window, (side, side)), (side, side))
 
 
 def coarse_to_fine(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

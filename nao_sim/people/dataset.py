@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+import hashlib
 import json
 import multiprocessing
 import os
 import platform
+import tomllib
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -23,6 +26,7 @@ from nao_sim.people.photos import DETAIL as PHOTO_DETAIL
 from nao_sim.people.photos import Photo, draw_photo, postures, write_photo
 from nao_sim.people.shots import Shot, draw_cast, draw_shot
 from nao_sim.people.stage import Stage
+from nao_sim.resources import resource
 
 CHILDREN = 1 / 3
 
@@ -134,7 +138,7 @@ def _claim(out: Path, wanted: set[tuple[int, float | None]]) -> None:
         rows = read_manifest(out)
     except FilmError:
         return
-    if not all("underway" in row for row in rows):
+    if not all(row.get("tables") == tables_digest() for row in rows):
         raise FilmError(f"{out} holds a film by a former version, whose motions differ; choose another folder")
     standing = {(row.get("seed"), row.get("restless")) for row in rows}
     if standing != wanted:
@@ -192,7 +196,15 @@ def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[i
 def row(job: Job) -> dict[str, Any]:
     """The manifest row of a clip; everything in it follows from the job, so it need not be stored while filming."""
     made = photo_row(job.file, job.photo()) if job.is_photo else shot_row(job.file, job.shot())
-    return made | {"seed": job.seed, "restless": job.restless}
+    return made | {"seed": job.seed, "restless": job.restless, "tables": tables_digest()}
+
+
+@functools.cache
+def tables_digest() -> str:
+    """Twelve digits that change with what the tables of ``assets/people`` say, from which all clips are drawn."""
+    tables = [path for path in sorted(resource("assets", "people").glob("*.toml")) if path.stem != "samples"]
+    said = [tomllib.loads(path.read_text(encoding="utf-8")) for path in tables]
+    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:12]
 
 
 def photo_row(file: str, photo: Photo) -> dict[str, Any]:

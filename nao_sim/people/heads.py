@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from nao_sim.people.dataset import Job
+from nao_sim.people.dataset import Job, tables_digest
 from nao_sim.people.errors import FilmError
 from nao_sim.people.manifest import read_manifest
 from nao_sim.people.persons import body_scales
@@ -58,7 +58,7 @@ def heads_of_film(folder: Path) -> Iterator[tuple[dict[str, Any], Array]]:
         command = json.loads((folder / "card.json").read_text(encoding="utf-8"))["command"]
         persons, seed, restless = command["persons"], command["seed"], command["restless"]
         rows = read_manifest(folder)
-        former = [row["file"] for row in rows if "underway" not in row]
+        former = [row["file"] for row in rows if row.get("tables") != tables_digest()]
         if former:
             raise KeyError(former[0])
     except (OSError, ValueError, KeyError, TypeError) as error:

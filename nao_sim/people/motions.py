@@ -38,6 +38,7 @@ class Motion:
         either_side: left and right are exchanged in half of the performances.
         reach: how much of the drawn size goes into poses that are not cycles.
         weight: how often it is drawn among its label's motions.
+        underway: share of performances that begin and end amid the repeated step.
         vary: ranges that :func:`drawn_offsets` draws from once a performance, for every pose but rest.
     """
 
@@ -49,6 +50,7 @@ class Motion:
     either_side: bool
     reach: float
     weight: float
+    underway: float
     vary: Mapping[str, Any]
 
     @property
@@ -185,5 +187,6 @@ def _motion(row: Mapping[str, Any], label: str, mirrored: bool) -> Motion:
         either_side=bool(row.get("either_side", False)),
         reach=float(row.get("reach", 0.25)),
         weight=float(row.get("weight", 1.0)),
+        underway=float(row.get("underway", tables()["underway"]["share"])),
         vary=row.get("vary", {}),
     )

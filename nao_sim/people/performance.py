@@ -129,7 +129,7 @@ def perform(
     seconds = max(wanted, plan.now + 0.25)
     lead = (seconds - plan.now) * rng.uniform(0.1, 0.9)
     cut = rng.spawn(1)[0]  # a stream of its own: the other clips stay as they are
-    share = tables()["underway"]["share"] if underway is None else underway
+    share = motion.underway if underway is None else underway
     amid = motion.repeated is not None and bool(cut.random() < share)
     if amid:
         seconds = wanted

@@ -13,7 +13,8 @@ from importlib.resources import files
 import cv2
 import numpy as np
 
-from recognizer.finder import CELL, Body, best_bodies, closer_look, closer_template, score_maps, template
+from recognizer.closer import closer_score
+from recognizer.finder import CELL, Body, best_bodies, closer_look, score_maps, template
 from recognizer.head_fit import fit
 from recognizer.static import windows
 from recognizer.static.types import Floats, Image
@@ -65,8 +66,7 @@ def find_heads(bgr: Image, count: int = HEADS) -> list[Body]:
     found = best_bodies(maps, (small.shape[1], small.shape[0]))
     if not found:
         return []
-    fine, offset = closer_template()
-    closer = closer_look(small, found) @ fine + offset
+    closer = np.tanh(closer_score(closer_look(small, found)) / 2)  # -1 for none, 1 for a head, as the template's aim
     exact = [fit(small, body) for body in found]
     bodies = [
         Body(b.x / scale, b.y / scale, b.head / scale, float(b.score + c)) for b, c in zip(exact, closer, strict=True)

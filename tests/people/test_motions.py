@@ -62,6 +62,14 @@ def test_what_is_not_repeated_is_never_underway_and_the_rest_stays_as_it_was():
             np.testing.assert_array_equal(one.angles(times), other.angles(times))
 
 
+def test_slow_waves_are_more_often_seen_without_their_beginning_and_end():
+    shares = {motion.underway for motion in motions()["bye_right"]}
+    usual, slow = sorted(shares)
+    assert usual == tables()["underway"]["share"]
+    drawn = performances("bye_two_hands", 150, underway=None)
+    assert 150 * usual * 0.6 < sum(done.underway for done in drawn) < 150 * slow
+
+
 def test_who_cannot_keep_still_sways_more_and_stands_on_the_same_feet():
     still, restless = (performances("stop", 12, restless=share) for share in (0.0, 1.0))
     sways = [np.ptp([track(p, "head", 30)[:, 1] for p in some], axis=1) for some in (still, restless)]

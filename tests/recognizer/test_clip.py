@@ -34,6 +34,11 @@ def test_frames_come_in_order_and_again(tmp_path: Path) -> None:
         assert levels == list(range(20))
 
 
+def test_small_motion_jpeg_is_decoded_by_one_thread_and_all_else_as_ffmpeg_likes(tmp_path: Path) -> None:
+    assert open_clip(write_video(tmp_path / "small.avi", counting(3))).threads == 1
+    assert open_clip(write_video(tmp_path / "large.avi", counting(3, 1280, 720))).threads == 0
+
+
 def test_a_range_has_both_its_ends(tmp_path: Path) -> None:
     path = write_video(tmp_path / "a.avi", counting(20))
     assert [round(float(f.mean()) / 5) for f in open_clip(path, (6, 9))] == [6, 7, 8, 9]

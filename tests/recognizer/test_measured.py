@@ -34,7 +34,8 @@ def test_class_distances_the_long_way() -> None:
     vectors = np.random.default_rng(1).normal(size=(4, 7)).astype(np.float32)
     found = rows.class_distances(rows.distances(vectors), K)
     for vector, out in zip(vectors, found, strict=True):
-        away = np.linalg.norm((vector - features) / metric.scale @ metric.components, axis=1)
+        within = np.clip(vector, features.min(axis=0), features.max(axis=0))
+        away = np.linalg.norm((within - features) / metric.scale @ metric.components, axis=1)
         expected = []
         for count in (K, 3 * K):
             expected += [np.sort(away[rows.rows.labels == label])[:count].mean() for label in rows.labels]
@@ -45,6 +46,16 @@ def test_class_distances_the_long_way() -> None:
             rows.nearest_kind(rows.distances(vector[None])[0])
             == rows.rows.actions[np.argmin(np.where(irrelevant, away, np.inf))]
         )
+
+
+def test_one_feature_leads_no_further_than_the_rows_do() -> None:
+    rows, features = measured(COUNTS)
+    inside = features[:1].copy()
+    inside[0, 3] = features[:, 3].max()
+    far = inside.copy()
+    far[0, 3] = 1e6
+    np.testing.assert_array_equal(rows.distances(far), rows.distances(inside))
+    assert not np.allclose(rows.distances(far), rows.distances(features[:1]))
 
 
 def test_without_irrelevant_motion_there_are_no_kinds() -> None:

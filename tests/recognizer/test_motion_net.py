@@ -52,7 +52,7 @@ def test_a_step_is_what_plain_correlations_give() -> None:
         maps = np.maximum(np.stack(outs, axis=-1)[::stride, ::stride] + layer.offsets, 0)
     seen = np.maximum(maps.ravel() @ net.seen.weights + net.seen.offsets, 0)
     head = np.maximum(look.head @ net.head.weights + net.head.offsets, 0)
-    found = net.steps([look], net.first(rest[None]))[0]
+    found = net.steps([look], net.first(rest))[0]
     np.testing.assert_allclose(found, np.concatenate([seen, head]), rtol=1e-3, atol=1e-4)
 
 
@@ -107,20 +107,22 @@ def test_a_question_does_without_the_mirrored_clip() -> None:
     assert both[1].any()
 
 
-def test_only_the_last_steps_count_and_few_are_nothing() -> None:
+def test_only_the_last_steps_count_however_they_come_and_few_are_nothing() -> None:
     few, long, short = MotionWatch(6), MotionWatch(6), MotionWatch(6)
-    few.push(some_step())
+    few.push([some_step()])
     assert not few.features.any()
     first, last = [some_step(k) for k in range(3)], [some_step(k) for k in range(10, 16)]
     for step in [*first, *first, *last]:
-        long.push(step)
-    for step in [*first, *last]:
-        short.push(step)
+        long.push([step])
+    short.push([*first[:2]])
+    short.push([first[2], *last])
     np.testing.assert_allclose(long.features, short.features, rtol=1e-4, atol=1e-4)
     assert long.features.any()
 
 
-def test_who_trains_the_network_anew_raises_the_version_of_the_features() -> None:
-    """Rows that another network described would be compared with clips that this one sees."""
-    digest = hashlib.sha256(files("recognizer").joinpath(FILE).read_bytes()).hexdigest()
-    assert (VERSION, digest[:16]) == (6, "4e509ffde12bbe8b")
+def test_who_trains_a_network_or_the_finder_anew_raises_the_version_of_the_features() -> None:
+    """Rows that other weights described would be compared with clips that these see."""
+    digest = hashlib.sha256()
+    for name in (FILE, "head_shoulders.npz", "head_fit.npz", "closer_look.npz", "ranking.npz"):
+        digest.update(files("recognizer").joinpath(name).read_bytes())
+    assert (VERSION, digest.hexdigest()[:16]) == (7, "0e9f0a62122cc4e3")

@@ -8,7 +8,7 @@ import pytest
 
 from recognizer.finder import Body
 from recognizer.samples import Sample
-from recognizer.window import POSE, WHOLE, View, Windows, cell_means, cut_window
+from recognizer.window import GRID_X, GRID_Y, POSE, WHOLE, View, Windows, cell_means, cut_window
 
 WIDTH, HEIGHT = 1200, 900
 SCALE = 5.0  # pixels of the picture to one of the window: shrunk first
@@ -19,16 +19,37 @@ SCALE = 5.0  # pixels of the picture to one of the window: shrunk first
 def test_a_window_shows_its_place_even_at_the_border(view: View, at: tuple[float, float]) -> None:
     head = SCALE * view.pixels
     width, height = view.size
-    x = np.clip(at[0] + view.left * head + SCALE * np.arange(width), 0, WIDTH - 1)
-    y = np.clip(at[1] + view.top * head + SCALE * np.arange(height), 0, HEIGHT - 1)
+    x = np.clip(at[0] + view.left * head + SCALE * (np.arange(width) + 0.5) - 0.5, 0, WIDTH - 1)
+    y = np.clip(at[1] + view.top * head + SCALE * (np.arange(height) + 0.5) - 0.5, 0, HEIGHT - 1)
     for ramp, expected in (
         (np.tile(np.arange(WIDTH) / 5, (HEIGHT, 1)), np.tile(x / 5, (height, 1))),
         (np.tile(np.arange(HEIGHT)[:, None] / 5, (1, WIDTH)), np.tile(y[:, None] / 5, (1, width))),
     ):
-        found = cut_window(ramp.round().astype(np.uint8), Body(*at, head, 1.0), view)
-        # A pixel of the window is 1 grey level; the parts beyond the border repeat it.
-        assert np.abs(found - expected).max() < 1.6
-        assert abs(float((found - expected).mean())) < 0.75
+        found = cut_window(ramp.astype(np.float32), Body(*at, head, 1.0), view)
+        # A pixel of the window is 1 grey level; beyond the border the mean of the last four is repeated.
+        assert np.abs(found - expected).max() < 0.95
+        assert abs(float((found - expected).mean())) < 0.5
+
+
+@pytest.mark.parametrize("shape", [(480, 24), (24, 480), (5, 5)])
+@pytest.mark.parametrize("head", [4.0, 90.0, 400.0])
+def test_a_picture_smaller_than_what_a_window_skips_is_cut_all_the_same(shape: tuple[int, int], head: float) -> None:
+    for view in (WHOLE, POSE):
+        window = cut_window(np.full(shape, 7, np.uint8), Body(12.0, 12.0, head, 1.0), view)
+        assert window.shape == view.size[::-1]
+        assert (window == 7).all()
+
+
+def test_what_lies_beyond_the_picture_does_not_move() -> None:
+    rng = np.random.default_rng(3)
+    windows, body = Windows(Body(160.0, 40.0, 40.0, 1.0)), Body(160.0, 40.0, 40.0, 1.0)
+    for k in range(2):  # noise, which seems to flow, and most where a border is repeated
+        grey = rng.integers(0, 255, (240, 320)).astype(np.uint8)
+        step = windows.push(Sample(k, 0.1 * k, grey[..., None].repeat(3, -1), grey, grey.astype(np.float32), ()), body)
+    assert step is not None
+    beyond = (GRID_Y < -1) | (np.abs(GRID_X) > 4)  # head heights
+    assert not step.speed[beyond].any()
+    assert step.speed[~beyond].any()
 
 
 @pytest.mark.parametrize("per_head", [1, 2])
