@@ -25,7 +25,7 @@ from recognizer.unrest import unrest_features
 from recognizer.window import COLUMNS, GRID_X, GRID_Y, HEAD, POSE, ROWS, make_step
 
 METHOD = "body"
-VERSION = 7
+VERSION = 8
 ONLY_MIRRORED = "motion_mirrored"  # the group that only says what the mirrored row has for "motion"
 BANDS = ((0.2, 0.8), (0.8, 1.5), (1.5, 2.5), (2.5, 5.01))  # Hz
 SHOULDERS = (-0.8, 0.8)  # x of the shoulders, 1.4 below the head's centre

@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import joblib
 import numpy as np
 from sklearn.model_selection import LeaveOneGroupOut, StratifiedKFold
 
@@ -113,25 +114,30 @@ def folds(database: Database, protocol: str, k: int = 10) -> Iterator[tuple[np.n
 
 
 def evaluate(
-    database: Database, protocol: str = "loo-person", progress: Callable[[int, int], None] | None = None
+    database: Database,
+    protocol: str = "loo-person",
+    progress: Callable[[int, int], None] | None = None,
+    jobs: int = 1,
 ) -> Evaluation:
-    """Answer every clip by a model learned from the other folds, limits and thresholds included."""
+    """Answer every clip by a model learned from the other folds, limits and thresholds included.
+
+    Args:
+        database: rows of one method.
+        protocol: one of PROTOCOLS.
+        progress: called with how many folds are done, and of how many.
+        jobs: processes; how many makes no difference to the answers.
+    """
     model_class: Any = method_of(database).model
     n = len(database)
     nearest, routed = np.full(n, IRRELEVANT, dtype=object), np.full(n, "small", dtype=object)
     rejected = np.zeros(n, bool)
-    right = {k: np.zeros(n, bool) for k in KS}
+    right = np.zeros((n, len(KS)), bool)
     splits = list(folds(database, protocol))
     learn = model_class.learner(database)
-    for number, (train, test) in enumerate(splits, 1):
-        model = learn(train)
-        for row in test:
-            vector = database.features[row]
-            decision = model.decide(vector)
-            nearest[row], routed[row] = decision.nearest, decision.family
-            rejected[row] = decision.rejected
-            for k in KS if database.labels[row] != IRRELEVANT else ():
-                right[k][row] = model.decide(vector, k=k).nearest == database.labels[row]
+    todo = (joblib.delayed(_fold)(learn, database, train, test) for train, test in splits)
+    done = joblib.Parallel(min(jobs, len(splits)), return_as="generator")(todo)
+    for number, ((_, test), decisions) in enumerate(zip(splits, done, strict=True), 1):
+        nearest[test], routed[test], rejected[test], right[test] = decisions
         if progress is not None:
             progress(number, len(splits))
     known = database.labels != IRRELEVANT
@@ -146,5 +152,18 @@ def evaluate(
         database.persons,
         database.sources,
         database.actions,
-        {k: float(np.mean(right[k][known])) for k in KS},
+        {k: float(np.mean(right[known, column])) for column, k in enumerate(KS)},
     )
+
+
+def _fold(
+    learn: Callable[[np.ndarray], Any], database: Database, train: np.ndarray, test: np.ndarray
+) -> tuple[list[str], list[str], list[bool], np.ndarray]:
+    """What a model of the rows ``train`` says of the rows ``test``: gesture, family, rejected, right with each k."""
+    model = learn(train)
+    vectors = database.features[test]
+    decisions = [model.decide(vector) for vector in vectors]
+    right = np.zeros((len(test), len(KS)), bool)
+    for row in np.flatnonzero(database.labels[test] != IRRELEVANT):
+        right[row] = [model.decide(vectors[row], k=k).nearest == database.labels[test[row]] for k in KS]
+    return [d.nearest for d in decisions], [d.family for d in decisions], [d.rejected for d in decisions], right

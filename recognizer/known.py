@@ -38,7 +38,8 @@ class KnownRows:
         self._twin_class[self._index] = turned
         self._origin, self._unit = self._units()
         self._scaled = scaled(database.features, self._origin, self._unit)
-        self._by_group: dict[int, Scatter] = {}
+        self._by_group = {int(group): self._of(self.groups == group) for group in np.unique(self.groups)}
+        self._total = functools.reduce(operator.add, self._by_group.values())
 
     def _units(self) -> tuple[np.ndarray, np.ndarray]:
         """Origin and unit of each feature, those of the mirrored one alike."""
@@ -76,18 +77,8 @@ class KnownRows:
         for group in range(FOLDS):
             whole = self.groups == group
             if whole.any() and missing[whole].all():
-                total, missing = total - self._group(group), missing & ~whole
+                total, missing = total - self._by_group[group], missing & ~whole
         return total - self._of(missing) if missing.any() else total
-
-    @functools.cached_property
-    def _total(self) -> Scatter:
-        parts = [self._group(group) for group in np.unique(self.groups)]
-        return functools.reduce(operator.add, parts)
-
-    def _group(self, group: int) -> Scatter:
-        if group not in self._by_group:
-            self._by_group[group] = self._of(self.groups == group)
-        return self._by_group[group]
 
     def _of(self, rows: np.ndarray) -> Scatter:
         return Scatter.of_scaled(self._scaled[rows], self._index[rows], len(self.classes), self._origin, self._unit)

@@ -59,7 +59,7 @@ def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bo
             database, _ = described(dataset, method.strip(), jobs)
         with stages(as_json) as show:
             name = f"{protocol}, {database.method}"
-            evaluations.append(score(database, protocol, functools.partial(show, name)))
+            evaluations.append(score(database, protocol, functools.partial(show, name), jobs))
     return evaluations
 
 

@@ -218,6 +218,15 @@ def test_protocols(protocol: str) -> None:
     assert evaluate(database(3), protocol).score() > 0.9
 
 
+def test_several_processes_answer_as_one() -> None:
+    made = database(4)
+    shown: list[int] = []
+    alone, both = evaluate(made), evaluate(made, progress=lambda done, _: shown.append(done), jobs=2)
+    assert shown == [1, 2, 3, 4]
+    for field in dataclasses.fields(alone):
+        np.testing.assert_array_equal(getattr(alone, field.name), getattr(both, field.name))
+
+
 def test_protocols_say_what_they_need() -> None:
     with pytest.raises(DatabaseError, match="two persons"):
         evaluate(database(1))
