@@ -21,6 +21,7 @@ import argparse
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from zipfile import BadZipFile
 
 import cv2
 import joblib
@@ -305,6 +306,7 @@ def main() -> None:
     parser.add_argument("--from", dest="begin", type=Path, help=f"a {FILE} to go on from, the shipped one or another")
     parser.add_argument("--out", type=Path, default=Path("recognizer"), help=f"folder of {FILE}")
     asked = parser.parse_args()
+    asked.out.mkdir(parents=True, exist_ok=True)
     entries = read_manifest(asked.set)
     clips = Clips(entries, asked.set / "looks.npz")
     net = Net(clips.classes).to(memory_format=torch.channels_last)
@@ -314,7 +316,7 @@ def main() -> None:
         try:
             with np.load(asked.begin) as arrays:
                 net.begin_with(arrays, clips, batches(clips, chosen, np.random.default_rng(0))[:40])
-        except (OSError, ValueError, KeyError, RuntimeError) as error:
+        except (OSError, EOFError, BadZipFile, ValueError, KeyError, RuntimeError) as error:
             parser.error(f"{asked.begin} are no weights to go on from: {str(error).splitlines()[0]}")
         train(net, net.name, clips, chosen, 1, 1e-2, asked.out / FILE)
     train(net, net, clips, chosen, asked.epochs, asked.rate, asked.out / FILE)

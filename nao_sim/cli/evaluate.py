@@ -20,7 +20,7 @@ def evaluate(
         typer.Option(help="methods to compare, separated by commas; body, of photos thesis_static,static if left out"),
     ] = None,
     figures: Annotated[Path | None, typer.Option(help="folder for the figures of results")] = None,
-    jobs: Annotated[int, typer.Option(help="processes")] = 2,
+    jobs: Annotated[int, typer.Option(help="processes", min=1)] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False,
 ) -> None:
     """Score DATASET by models that never saw the person (or clip) they answer for."""

@@ -26,7 +26,7 @@ def film(
     restless: Annotated[
         float | None, typer.Option(help="Share of clips in which people cannot keep still; one in ten if not given.")
     ] = None,
-    processes: Annotated[int, typer.Option(help="How many render at once; 0 for one a core.")] = 0,
+    processes: Annotated[int, typer.Option(help="How many render at once; 0 for one a core.", min=0)] = 0,
     samples: Annotated[bool, typer.Option("--samples", help="Film the sample clips of assets/clips instead.")] = False,
 ) -> None:
     """Film simulated persons performing the gestures: a data set with manifest and card."""

@@ -17,7 +17,7 @@ def train(
     method: Annotated[
         str | None, typer.Option(help="description: body or thesis, of photos static or thesis_static")
     ] = None,
-    jobs: Annotated[int, typer.Option(help="processes")] = 2,
+    jobs: Annotated[int, typer.Option(help="processes", min=1)] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False,
 ) -> None:
     """Describe every clip of DATASET and write the database that recognises gestures."""

@@ -137,3 +137,21 @@ def test_a_disk_that_fills_up_leaves_nothing(
     assert ran.code == 2
     assert "No space left" in ran.err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        ("train set --out d.parquet --jobs 0", "--jobs"),
+        ("evaluate d.parquet --jobs 0", "--jobs"),
+        ("film --out set --persons 1 --takes 1 --seed 1 --processes -1", "--processes"),
+    ],
+)
+def test_too_few_processes_are_refused_before_anything_is_done(
+    nao_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, option: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    ran = nao_sim(*words.split())
+    assert ran.code == 2
+    assert option in ran.err
+    assert list(tmp_path.iterdir()) == []
