@@ -6,7 +6,7 @@ SET is a folder that ``nao-sim film`` made. The shipped weights were learned in 
 SET --persons 90 --takes 4 --irrelevant 6000 --seed 3``, by former versions of films and windows: ten epochs on 60
 persons, eight on all 90, both with less variation than below (no other sizes, tempi or noise), eighteen more. The
 fourth on other 90 persons, ``--seed 5``, with the films and windows of today: ``--epochs 8 --rate 1.2e-3 --from
-recognizer/motion_net.npz``, half an hour on two cores and as much for what every clip shows, which is kept in
+recognizer/motion_net.npz``, twenty minutes on two cores and nearly as much for what every clip shows, which is kept in
 SET/looks.npz. None of these persons is in the shipped database or takes part in its figures. With new weights raise
 ``VERSION`` in ``recognizer/body_features.py`` and train all databases again.
 
