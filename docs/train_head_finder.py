@@ -5,8 +5,8 @@ learned one after the other, each on persons whom the one before does not know:
 
 - the template and the fit with ``--persons 40 --every 1`` on ``nao-sim film --out SET --persons 40 --takes 2
   --irrelevant 400 --seed 7 --restless 0.3``, 1,438 clips (who walks is left out);
-- the closer look with ``--part closer --persons 60 --every 1`` on the film that the motion network was trained on
-  (docs/people.md; waves were a little different then), 7,600 clips;
+- the closer look with ``--part closer --persons 60 --every 1`` on ``nao-sim film --out SET --persons 90 --takes 4
+  --irrelevant 6000 --seed 3`` (waves were a little different then), 7,600 clips;
 - the ranking with ``--part ranking --first 60 --persons 30 --every 1`` on the same film, 3,800 clips of other persons.
 
 None of all these takes part in the database and its figures.
