@@ -5,8 +5,6 @@ five layers of convolutions; three more over time, of growing reach, and their m
 become 128. The network was trained once to tell gestures and 55 other motions of simulated people apart
 (``docs/train_motion_net.py``), none of whom is in the shipped database. Only these numbers are used, as features among
 others: a gesture is added by rows of a database, not by training the network again.
-
-Batch normalisation (Ioffe and Szegedy, 2015) is folded into the weights; all is float32 and plain NumPy.
 """
 
 from __future__ import annotations
@@ -15,12 +13,11 @@ import dataclasses
 import functools
 from collections.abc import Sequence
 from importlib.resources import files
-from typing import NamedTuple
 
 import cv2
 import numpy as np
-from numpy.lib.stride_tricks import as_strided
 
+from recognizer.convolution import Layer, patches
 from recognizer.window import Step, cell_means
 
 FILE = "motion_net.npz"
@@ -31,19 +28,6 @@ HEAD_CELLS = 6  # in each direction, of the window HEAD
 STRIDES = (2, 2, 1, 2, 2)  # of the convolutions over space
 DILATIONS = (1, 2, 4)  # steps between what the convolutions over time read
 FEATURES = 128
-
-
-class Layer(NamedTuple):
-    """Weights (d, n) and offsets (n,) of a layer whose inputs are brought to rows of d, as they are stored."""
-
-    weights: np.ndarray
-    offsets: np.ndarray
-
-    def __call__(self, inputs: np.ndarray) -> np.ndarray:
-        """Rectified output (…, n) of inputs (…, d)."""
-        out = (inputs.reshape(-1, inputs.shape[-1]) @ self.weights).reshape(*inputs.shape[:-1], -1)
-        out += self.offsets
-        return np.maximum(out, 0, out=out)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -110,7 +94,7 @@ class MotionNet:
     def first(self, rest: np.ndarray) -> Layer:
         """The first layer for a person whose window at rest is ``rest``, (64, 80) [PICTURE_UNIT]."""
         first = self.space[0]
-        taken = _patches(rest[None, ..., None], self.rest, STRIDES[0]) @ self.rest
+        taken = patches(rest[None, ..., None], self.rest, STRIDES[0]) @ self.rest
         return Layer(first.weights, first.offsets - taken)
 
     def steps(self, looks: Sequence[Look], first: Layer) -> np.ndarray:
@@ -119,7 +103,7 @@ class MotionNet:
         for layer, stride in zip((first, *self.space[1:]), STRIDES, strict=True):
             if stride == 1:
                 maps = np.concatenate([maps, flow], axis=-1)
-            maps = layer(_patches(maps, layer.weights, stride))
+            maps = layer(patches(maps, layer.weights, stride))
         head = self.head(np.stack([look.head for look in looks]))
         return np.concatenate([self.seen(maps.reshape(len(looks), -1)), head], axis=1)
 
@@ -130,21 +114,6 @@ class MotionNet:
             found = found + layer(_in_time(found, dilation))
         spread = np.sqrt(found.var(axis=1) + np.float32(1e-4))
         return self.whole(np.concatenate([found.mean(axis=1), found.max(axis=1), spread], axis=1))
-
-
-def _patches(maps: np.ndarray, weights: np.ndarray, stride: int) -> np.ndarray:
-    """What a convolution with weights (d, n) reads of maps (m, h, w, c), (m, h/stride, w/stride, d); 0 outside."""
-    count, height, width, channels = maps.shape
-    side = round((len(weights) / channels) ** 0.5)
-    around = side // 2
-    padded = np.zeros((count, height + 2 * around, width + 2 * around, channels), np.float32)
-    padded[:, around:-around, around:-around] = maps
-    following, down, right, _ = padded.strides
-    rows, columns = height // stride, width // stride
-    # A row of a patch lies together in memory.
-    shape = (count, rows, columns, side, side * channels)
-    view = as_strided(padded, shape, (following, stride * down, stride * right, down, padded.itemsize))
-    return view.reshape(count, rows, columns, -1)
 
 
 def _in_time(steps: np.ndarray, dilation: int) -> np.ndarray:

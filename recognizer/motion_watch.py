@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from recognizer.motion_net import FEATURES, REST, Layer, Look, MotionNet
+from recognizer.convolution import Layer
+from recognizer.motion_net import FEATURES, REST, Look, MotionNet
 from recognizer.window import Step
 
 

@@ -155,7 +155,7 @@ def take_photo(stage: Stage, photo: Photo) -> Image:
         stage.show_only(("watch", *_HAND_PARTS) if photo.outfit.watch else _HAND_PARTS[:3])
     stage.furnish(photo.room)
     stage.light(photo.light)
-    stage.aim(_close_camera(stage, photo, rng) if photo.close else _person_camera(photo, rng))
+    stage.aim(_close_camera(stage, photo, rng) if photo.close else person_camera(photo, rng))
     stage.room_image()
     picture = stage.image(photo.angles)
     small = cv2.resize(picture, (photo.width, photo.height), interpolation=cv2.INTER_AREA)
@@ -182,7 +182,7 @@ def _close_camera(stage: Stage, photo: Photo, rng: Generator) -> Camera:
     return Camera((pos[0], pos[1], pos[2]), (middle[0], middle[1], middle[2]), fovy, tilt)
 
 
-def _person_camera(photo: Photo, rng: Generator) -> Camera:
+def person_camera(photo: Photo, rng: Generator) -> Camera:
     """A camera that sees head, shoulders and the raised hand."""
     kind, stature = table()["person"], photo.person.stature
     high = stature * rng.uniform(*kind["high"])

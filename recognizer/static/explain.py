@@ -13,6 +13,7 @@ from recognizer.static import baseline
 from recognizer.static.candidates import Candidate
 from recognizer.static.chamfer import chamfer_distance
 from recognizer.static.errors import PhotoError
+from recognizer.static.explain_person import person_pictures
 from recognizer.static.palm import canonical_mask
 from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.recognise import PhotoRecognizer, Seen
@@ -34,7 +35,13 @@ def explain_photo(
     pictures: dict[str, Image] = {}
     with contextlib.suppress(PhotoError):  # where the thesis's chain finds nothing, ours may
         pictures.update(thesis_pictures(baseline.stages(image)))
-    pictures.update(our_pictures(recognizer.look(image)))
+    person = None if recognizer.method.name == baseline.METHOD else recognizer.person_in(image)
+    if person is None:
+        pictures.update(our_pictures(recognizer.look(image)))
+    else:
+        pictures.update(person_pictures(image, person))
+        with contextlib.suppress(PhotoError):  # where no mask divides a hand from the room, the network may name it
+            pictures.update(our_pictures(recognizer.look(image)))
     target = Path(folder)
     target.mkdir(parents=True, exist_ok=True)
     paths = []

@@ -30,7 +30,7 @@ FACE = (0.22, 0.3)  # half axes, in heads, of what is skin of the face
 HEAD_COUNTS = 0.3  # of the head's score in a hand's
 APART = 0.3  # hand lengths: places nearer than this are one
 MOST = 12
-_WEIGHTS = "hand_windows.npz"
+_TEMPLATE = "hand_template.npz"
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,10 @@ class Spot:
 
 
 @functools.cache
-def weights() -> dict[str, np.ndarray]:
-    """Return what was learnt by `recognizer.static.window_training`."""
-    with files("recognizer.static").joinpath(_WEIGHTS).open("rb") as file, np.load(file, allow_pickle=False) as stored:
-        return {name: stored[name] for name in stored.files}
+def hand_template() -> tuple[np.ndarray, float]:
+    """Return the template (12, 12, 15) and its offset, as learnt by `recognizer.static.hand_finder_training`."""
+    with files("recognizer.static").joinpath(_TEMPLATE).open("rb") as file, np.load(file, allow_pickle=False) as stored:
+        return stored["weights"].astype(np.float32), float(stored["offset"])
 
 
 def find_heads(bgr: Image, count: int = HEADS) -> list[Body]:
@@ -76,9 +76,7 @@ def find_heads(bgr: Image, count: int = HEADS) -> list[Body]:
 
 def find_hands(bgr: Image, heads: list[Body]) -> list[Spot]:
     """Return the places most like a raised hand of whoever has one of the heads, best first."""
-    template_weights = weights()["coarse_weights"].astype(np.float32)
-    offset = float(weights()["coarse_offset"])
-    spots = [spot for head in heads for spot in search(bgr, head, template_weights, offset)]
+    spots = [spot for head in heads for spot in search(bgr, head, *hand_template())]
     return distinct(spots)
 
 
@@ -109,7 +107,7 @@ def search(bgr: Image, head: Body, template_weights: np.ndarray, offset: float) 
         hand = HAND * head.head * size
         scores, fx, fy = _scores(part, face, hand, template_weights, offset)
         rows, columns = np.nonzero(scores >= cv2.dilate(scores, np.ones((3, 3), np.uint8)))
-        xs, ys = (columns * CELL - windows.COARSE) * fx + x, (rows * CELL - windows.COARSE) * fy + y
+        xs, ys = (columns * CELL - windows.CELLS) * fx + x, (rows * CELL - windows.CELLS) * fy + y
         near = _within_reach(xs, ys, head) & (xs >= 0) & (ys >= 0) & (xs < bgr.shape[1]) & (ys < bgr.shape[0])
         values = scores[rows, columns] + HEAD_COUNTS * head.score
         spots += [
@@ -123,14 +121,14 @@ def _scores(
     part: Image, face: Floats, hand: float, template_weights: np.ndarray, offset: float
 ) -> tuple[np.ndarray, float, float]:
     """Return the template's score at each cell, and the photo's pixels per pixel searched, both ways."""
-    scale = windows.COARSE_HAND / hand
+    scale = windows.HAND / hand
     width, height = (max(CELL, round(n * scale)) for n in part.shape[1::-1])
-    rim = windows.COARSE
+    rim = windows.CELLS
     small = cv2.resize(part, (width, height), interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR)
     small = cv2.copyMakeBorder(small, rim, rim, rim, rim, cv2.BORDER_REPLICATE)
     planes = windows.channels(small, windows.like_face(windows.lab(small), face))
     total = np.full(planes.shape[:2], offset, np.float32)
-    anchor = (windows.COARSE // 2, windows.COARSE // 2)
+    anchor = (windows.CELLS // 2, windows.CELLS // 2)
     for c in range(windows.CHANNELS):
         plane, kernel = np.ascontiguousarray(planes[:, :, c]), np.ascontiguousarray(template_weights[:, :, c])
         total += cv2.filter2D(plane, cv2.CV_32F, kernel, anchor=anchor, borderType=cv2.BORDER_CONSTANT)

@@ -2,8 +2,8 @@
 
 The head and the raised hand are found together (`hand_finder`), so that neither a sleeve nor a skin-coloured wall
 elsewhere in the room matters. At each spot a window as large as a hand is cut out, and the hand in it is divided from
-arm, face and room by local contrast: that is what pictures of the stages show, and what databases with postures of
-their own are asked with.
+arm, face and room by local contrast: that is what databases with postures of their own are asked with
+(`person_postures` names the others without a mask), and pictures of the stages show it.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ SURE = 0.25  # score of a head from which a person is believed to be in view
 POSSIBLE = -0.25  # score from which a person may be in view; three of four close-ups of hands stay below
 LONGEST_PART = 3.0  # heads: no face and no arm with its hand is longer
 CERTAIN = 1.4  # score from which it is no part of a close-up that happens to look like a head
-SEVERAL = 1.0  # score from which a further head is another person
-SMALLEST = 32  # pixels of a hand's expected length: below, fingers are some three pixels wide
-SHOWN = 4  # spots that are divided from their surroundings
+SEVERAL = 1.4  # score from which a further head is another person; one of 50 photos of one person has such a place
+SMALLEST = 22  # pixels of a hand's expected length: below, fingers are some two pixels wide
+SHOWN = 4  # spots that are looked at
 WINDOW = 1.6  # hand lengths: side of what is cut out around a hand
 WINDOW_SIDE = 200  # pixels it is enlarged to
 PALM_BELOW = 0.2  # hand lengths from the knuckle that a spot marks to the palm's middle
@@ -44,16 +44,24 @@ class Person:
     """A person in view.
 
     Attributes:
-        score: how sure; see `SURE` and `CERTAIN`.
-        hand: expected length of its hands, pixels.
+        head: the likeliest head.
         spots: where its raised hands may be, best first; none when the hand is too small.
         persons: how many heads are in view, this one included.
     """
 
-    score: float
-    hand: float
+    head: Body
     spots: tuple[Spot, ...]
     persons: int = 1
+
+    @property
+    def score(self) -> float:
+        """How sure; see `SURE` and `CERTAIN`."""
+        return self.head.score
+
+    @property
+    def hand(self) -> float:
+        """Expected length of its hands, pixels."""
+        return HAND * self.head.head
 
 
 @dataclass(frozen=True)
@@ -79,9 +87,8 @@ def find_person(bgr: Image) -> Person | None:
     heads: list[Body] = find_heads(bgr)
     if not heads or heads[0].score < SURE:
         return None
-    hand = HAND * heads[0].head
-    spots = tuple(find_hands(bgr, heads)) if hand >= SMALLEST else ()
-    return Person(heads[0].score, hand, spots, max(1, sum(head.score >= SEVERAL for head in heads)))
+    spots = tuple(find_hands(bgr, heads)) if HAND * heads[0].head >= SMALLEST else ()
+    return Person(heads[0], spots, max(1, sum(head.score >= SEVERAL for head in heads)))
 
 
 def part_of_person(bgr: Image, length: float) -> bool:

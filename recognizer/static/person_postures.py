@@ -1,20 +1,23 @@
 """Which posture does the hand of a person in view show? The windows around it say, without a mask.
 
-A linear discriminant of `windows.fine_vector` gives each posture, other hands and "no hand" a share; the shares are
-of the mean over slightly moved, scaled and turned windows.
+A small network (`hand_net`) gives each posture, other hands and "no hand" a share; the shares are of the mean over
+slightly moved, scaled and turned windows.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from recognizer.database import IRRELEVANT
 from recognizer.decision import Decision
-from recognizer.static.hand_finder import Spot, weights
+from recognizer.static.hand_finder import Spot
+from recognizer.static.hand_net import HAND, SIDE, HandNet, look
+from recognizer.static.palm import HandFrame
 from recognizer.static.types import Floats, Image
-from recognizer.static.windows import fine_vector
+from recognizer.static.windows import cut_window
 
 # The windows that are asked: moved right and down (hand lengths), scaled, turned (rad).
 ASKED = (
@@ -28,34 +31,56 @@ ASKED = (
     (0.0, 0.07, 1.0, 0.0),
     (0.0, -0.07, 1.0, 0.0),
 )
-LEAST_SHARE = 0.6  # of the winner, below which there is no answer; chosen on odd-numbered persons
+LEAST_SHARE = 0.5  # of the winner, below which there is no answer; 0.4 to 0.7 do nearly as well
 NO_HAND = "no hand"
+NOT_SHOWN = "a person is in view, but no raised hand stands out; show the hand beside the head, or come closer"
+PALM_RADIUS, KNUCKLE = 0.2, 0.2  # hand lengths: the palm's largest disc, and from its middle to the knuckle
 
 
 @dataclass(frozen=True)
 class Shares:
-    """What the windows around one spot say."""
+    """What the windows around one spot say; see :func:`shares`."""
 
     spot: Spot
-    by_label: dict[str, float]  # posture, "irrelevant" or "no hand" -> share, summing to 1
+    by_label: dict[str, float]
 
 
 def known_labels() -> set[str]:
-    """Return the postures that windows can name."""
-    return {_label(name) for name in weights()["classes"]} - {IRRELEVANT, NO_HAND}
+    """Return the postures that the network can name."""
+    return {_label(name) for name in HandNet.load().classes} - {IRRELEVANT, NO_HAND}
 
 
-def shares(bgr: Image, spot: Spot) -> Shares:
-    """Return the share of each posture, of other hands and of no hand, at one spot of a photo."""
-    stored = weights()
-    total = np.zeros(len(stored["classes"]))
-    for right, down, size, turn_rad in ASKED:
-        middle = spot.middle + np.array([right, down]) * spot.hand
-        total += fine_vector(bgr, middle, spot.hand * size, turn_rad) @ stored["fine_weights"].astype(np.float32)
+def shares(bgr: Image, middle: Floats, hand: float, turn_rad: float = 0.0) -> dict[str, float]:
+    """Return the share of each posture, of other hands and of no hand at one place, summing to 1.
+
+    Args:
+        bgr: (h, w, 3) uint8 photo.
+        middle: (2,) x, y of the middle finger's knuckle, pixels.
+        hand: length of the hand, wrist to fingertips, pixels.
+        turn_rad: the windows are turned by so much, beyond what is asked anyway.
+    """
+    net = HandNet.load()
+    looks = []
+    for right, down, size, turned in ASKED:
+        place = middle + np.array([right, down]) * hand
+        looks.append(look(cut_window(bgr, place, hand * size, HAND, SIDE, turn_rad + turned)))
     by_label: dict[str, float] = {}
-    for name, share in zip(stored["classes"], _softmax(total / len(ASKED) + stored["fine_offsets"]), strict=True):
+    for name, share in zip(net.classes, _softmax(net(np.stack(looks)).mean(axis=0)), strict=True):
         by_label[_label(name)] = by_label.get(_label(name), 0.0) + float(share)
-    return Shares(spot, by_label)
+    return by_label
+
+
+def look_at(bgr: Image, spots: Sequence[Spot]) -> list[Shares]:
+    """Return what is at some spots of a photo, the one that is most surely a hand first."""
+    found = [Shares(spot, shares(bgr, spot.middle, spot.hand)) for spot in spots]
+    return sorted(found, key=lambda here: here.by_label[NO_HAND])
+
+
+def is_hand(bgr: Image, frame: HandFrame) -> bool:
+    """Whether an object divided from its surroundings is a hand, whichever; a face or a whole person is none."""
+    hand = frame.radius / PALM_RADIUS
+    up = np.array([np.sin(frame.up_rad), -np.cos(frame.up_rad)])
+    return shares(bgr, frame.centre + KNUCKLE * hand * up, hand, -frame.up_rad)[NO_HAND] < 0.5
 
 
 def decide(found: Shares, among: set[str] | None = None) -> Decision:
@@ -74,7 +99,7 @@ def decide(found: Shares, among: set[str] | None = None) -> Decision:
     rejected = none or distance > 1 - LEAST_SHARE
     reason = ""
     if winner == NO_HAND:
-        reason = "a person is in view, but no raised hand stands out; show the hand beside the head, or come closer"
+        reason = NOT_SHOWN
     elif none:
         reason = "the person in view shows a hand, but none of the postures"
     elif rejected:
@@ -87,11 +112,11 @@ def decide(found: Shares, among: set[str] | None = None) -> Decision:
 
 def no_hand(decision: Decision) -> bool:
     """Whether :func:`decide` found that nothing like a hand is there."""
-    return max(decision.votes, key=lambda label: decision.votes[label]) == NO_HAND
+    return bool(decision.votes) and max(decision.votes, key=lambda label: decision.votes[label]) == NO_HAND
 
 
 def _label(name: str) -> str:
-    return IRRELEVANT if str(name).startswith(IRRELEVANT) else str(name)
+    return IRRELEVANT if name.startswith(IRRELEVANT) else name
 
 
 def _softmax(scores: Floats) -> Floats:

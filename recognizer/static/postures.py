@@ -22,7 +22,7 @@ from recognizer.decision import Decision, decide
 from recognizer.neighbours import NeighbourClassifier
 from recognizer.static.types import Floats
 
-FALSE_REJECTION = 0.03  # of the database's own postures, person-disjoint
+FALSE_REJECTION = 0.02  # of the database's own postures, person-disjoint; 98 of 100 shall be named
 IRRELEVANT_COST = 1.15  # an irrelevant hand must be nearer than a posture by this factor to win
 
 
@@ -115,7 +115,7 @@ class PostureModel:
         return self
 
     def _threshold(self, kinds: np.ndarray) -> float:
-        """Return the distance to their own kind that 97 % of known postures by unknown persons stay within."""
+        """Return the distance to their own kind that 98 % of known postures by unknown persons stay within."""
         database, persons = self.database, self.database.persons
         folds = min(5, len(np.unique(persons)))
         if folds < 2:

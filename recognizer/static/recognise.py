@@ -15,10 +15,10 @@ from recognizer.decision import Decision
 from recognizer.errors import DatabaseError
 from recognizer.recognition import Recognition
 from recognizer.static import baseline, descriptors, person_postures
-from recognizer.static.candidates import Candidate, beside_person, candidates, check_size, close_up, is_plain
+from recognizer.static.candidates import Candidate, candidates, check_size, close_up, is_plain
 from recognizer.static.errors import HandTooSmallError, NoHandError, NoSkinError
 from recognizer.static.methods import method_of
-from recognizer.static.person import CERTAIN, Person, find_person, part_of_person
+from recognizer.static.person import CERTAIN, SHOWN, Person, find_person, part_of_person
 from recognizer.static.photo import as_bgr, read_photo
 from recognizer.static.types import Image
 
@@ -101,18 +101,18 @@ class PhotoRecognizer:
         """Return what the neighbours say of the best hand, and warnings."""
         if self.method.name == baseline.METHOD:
             return self.model.decide(baseline.vector(image), among), ()
-        try:
-            person = find_person(image)
-            if person is not None and set(self.labels) <= person_postures.known_labels():
-                several = (f"{person.persons} persons in view; the answer is for the clearest hand",)
-                decision = self._decide_person(image, person, among)
-                seen = self._without_person(image, person, decision, among)
-                if not seen:
-                    return decision, several if person.persons > 1 else ()
-            else:
+        person = self.person_in(image)
+        if person is None:
+            try:
                 seen = self.look(image, among)
-        except HandTooSmallError as error:
-            return self._not_seen(str(error)), ()
+            except HandTooSmallError as error:
+                return self._not_seen(str(error)), ()
+        else:
+            decision = self._decide_person(image, person, among)
+            seen = [] if decision.label is not None else self._without_person(image, person, decision, among)
+            if not seen:
+                several = (f"{person.persons} persons in view; the answer is for the clearest hand",)
+                return decision, several if person.persons > 1 else ()
         best = seen[0]
         if best.decision.distance > NO_HAND * self.model.threshold_:
             raise NoHandError(
@@ -125,30 +125,37 @@ class PhotoRecognizer:
             return dataclasses.replace(best.decision, label=None, rejected=True, reason=reason), ()
         return best.decision, _warnings(seen)
 
+    def person_in(self, image: Image) -> Person | None:
+        """Return the person in view; None in a close-up, and where the network does not know the database's postures.
+
+        In the latter case hands of a person are divided from their surroundings, as those of close-ups are.
+        """
+        return find_person(image) if set(self.labels) <= person_postures.known_labels() else None
+
     def _decide_person(self, image: Image, person: Person, among: set[str] | None) -> Decision:
-        """Name the likeliest hand of a person in view; in doubt about the person, a close-up's hand comes first."""
-        close = self._seen(beside_person(image, person), among)
-        if close and not close[0].decision.rejected:
-            return close[0].decision
-        check_size(person)
+        """Name the clearest hand of a person in view, or say why not."""
         if not person.spots:
-            raise NoHandError("a person is in view, but no raised hand off the face; show the hand beside the head")
+            try:
+                check_size(person)
+            except HandTooSmallError as error:
+                return self._not_seen(str(error))
+            return self._not_seen(person_postures.NOT_SHOWN)
         among = set(self.labels) if among is None else among
-        return person_postures.decide(person_postures.shares(image, person.spots[0]), among)
+        return person_postures.decide(person_postures.look_at(image, person.spots[:SHOWN])[0], among)
 
     def _without_person(self, image: Image, person: Person, decision: Decision, among: set[str] | None) -> list[Seen]:
-        """What a close-up would show, where the person is in doubt and shows no hand: it may be none."""
-        if (
-            person.score >= CERTAIN
-            or not is_plain(image)
-            or not decision.rejected
-            or not person_postures.no_hand(decision)
-        ):
+        """What a close-up would show where the person is in doubt and shows no posture: it may be none.
+
+        An object has to fill the picture, unless nothing else is there.
+        """
+        if person.score >= CERTAIN:
             return []
+        alone = person_postures.no_hand(decision) and is_plain(image)
         try:
-            return self._seen(close_up(image), among)
+            seen = self._seen([c for c in close_up(image) if alone or c.fills()], among)
         except NoSkinError:
             return []
+        return seen if seen and not seen[0].decision.rejected else []
 
     def _not_seen(self, reason: str) -> Decision:
         return Decision(None, IRRELEVANT, IRRELEVANT, True, reason, float("inf"), self.model.threshold_, {}, ())
@@ -161,6 +168,9 @@ class PhotoRecognizer:
         seen = []
         for candidate in found:
             decision = self.model.decide(descriptors.describe(candidate.mask, candidate.frame), among)
+            if not decision.rejected and not person_postures.is_hand(candidate.image, candidate.frame):
+                reason = f"something with the outline of {decision.nearest}, but by what is inside it no hand"
+                decision = dataclasses.replace(decision, label=None, rejected=True, reason=reason)
             nearest = decision.neighbours[0].distance
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)

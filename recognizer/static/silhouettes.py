@@ -19,7 +19,7 @@ _CIRCLE = np.column_stack([f(np.linspace(0, 2 * np.pi, 20, endpoint=False)) for 
 def silhouette(posture: Posture, build: Build, rng: np.random.Generator) -> Mask:
     """Return one filmed take of a posture as a skin mask, left or right hand, (200, 200) bool."""
     skeleton = pose(posture, build, rng)
-    view = _view(posture, rng)
+    view = view_of(posture, rng)
     sleeved = rng.uniform() < 0.2
     forearm = rng.uniform(0.1, 0.6) if sleeved else 8.0
     pieces = flesh(skeleton, build, forearm)
@@ -34,7 +34,7 @@ def silhouette(posture: Posture, build: Build, rng: np.random.Generator) -> Mask
     return largest(np.ascontiguousarray(mask))
 
 
-def _view(posture: Posture, rng: np.random.Generator) -> Floats:
+def view_of(posture: Posture, rng: np.random.Generator) -> Floats:
     """Return the rotation from hand to camera, (3, 3): a turn about the forearm, a nod, a tilt in the picture."""
     yaw, pitch, roll = rng.normal(posture.yaw[0], posture.yaw[1]), rng.normal(0, 12), rng.normal(0, 10)
     return Rotation.from_euler("ZXY", [roll, pitch, yaw], degrees=True).as_matrix()

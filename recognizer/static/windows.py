@@ -1,9 +1,7 @@
 """Windows around a hand of a person in view, described by gradients, without a mask.
 
-A hand of forty pixels before a bookcase cannot be divided from it by colour alone, but its edges stand where a hand's
-edges stand. A window is described by orientation cells (`recognizer.finder.cells`) of its grey picture and of how
-much each pixel is coloured like skin: like the person's face while hands are looked for, like the palm in the
-window's middle when a posture is named, since face and hand are lit differently.
+While hands are looked for, a window is described by orientation cells (`recognizer.finder.cells`) of its grey picture
+and of how much each pixel is coloured like the person's face.
 """
 
 from __future__ import annotations
@@ -15,16 +13,10 @@ from recognizer.finder import BINS, CELL, cells
 from recognizer.static.types import Floats, Image
 
 RIM = 4  # cells around a window that even out the contrast, then go
-COARSE_HAND, COARSE = 14, 12  # pixels of a hand's length and cells of the window in which hands are looked for
-FINE_HAND, FINE, POOLED = 44, 36, 2  # the same for naming postures; cells are averaged two by two
+HAND, CELLS = 14, 12  # pixels of a hand's length and cells of the window in which hands are looked for
 CHANNELS = 2 * (BINS + 1) + 1
 LIKENESS_WEIGHT = 2.0
 FACE_SCALE = (44.0, 10.0, 10.0)  # Lab units: lightness tells hand from face less than colour does
-PALM_AT = (0.0, 0.18)  # hand lengths right and down of the window's middle, the middle finger's knuckle
-PALM_RADIUS = 0.115  # hand lengths
-PALM_LEAST = (5.0, 2.5, 2.5)  # least spread of a palm's colour, Lab with lightness weighted
-PALM_SCALE = 3.1  # spreads
-LIGHTNESS_WEIGHT = 0.6
 
 
 def lab(bgr: Image) -> np.ndarray:
@@ -39,18 +31,6 @@ def like_face(colours: np.ndarray, face: Floats) -> np.ndarray:
     return np.asarray(np.exp(-away.sum(axis=2)), np.float32)
 
 
-def like_palm(colours: np.ndarray, hand: float) -> np.ndarray:
-    """Return how much the Lab colours (h, w, 3) of a window are like its palm's, 0 to 1; ``hand`` in pixels."""
-    weighted = colours * np.array([LIGHTNESS_WEIGHT, 1, 1], np.float32)
-    rows, columns = np.indices(colours.shape[:2])
-    middle = np.array(colours.shape[1::-1]) / 2 + np.array(PALM_AT) * hand
-    palm = weighted[np.hypot(columns - middle[0], rows - middle[1]) < PALM_RADIUS * hand]
-    colour = np.median(palm, axis=0)
-    spread = np.maximum(1.4826 * np.median(np.abs(palm - colour), axis=0), PALM_LEAST) * PALM_SCALE
-    away = ((weighted - colour) / spread) ** 2
-    return np.asarray(np.exp(-away.sum(axis=2)), np.float32)
-
-
 def channels(bgr: Image, likeness: np.ndarray) -> np.ndarray:
     """Return the cells of a picture, (h // 2, w // 2, 15): grey, likeness to skin, and that likeness itself."""
     grey = cv2.cvtColor(bgr, cv2.COLOR_BGR2GRAY)
@@ -60,8 +40,8 @@ def channels(bgr: Image, likeness: np.ndarray) -> np.ndarray:
     return np.dstack([cells(grey), cells(likeness * 255), mean])
 
 
-def coarse_vector(bgr: Image, middle: Floats, hand: float, face: Floats, turn_rad: float = 0.0) -> np.ndarray:
-    """Return the coarse window around a place of a photo, (2160,) float32.
+def window_vector(bgr: Image, middle: Floats, hand: float, face: Floats, turn_rad: float = 0.0) -> np.ndarray:
+    """Return the window around a place of a photo, (2160,) float32.
 
     Args:
         bgr: (h, w, 3) uint8 photo.
@@ -70,26 +50,9 @@ def coarse_vector(bgr: Image, middle: Floats, hand: float, face: Floats, turn_ra
         face: (3,) Lab colour of the face.
         turn_rad: the window stands turned by so much.
     """
-    window = cut_window(bgr, middle, hand, COARSE_HAND, CELL * (COARSE + 2 * RIM), turn_rad)
+    window = cut_window(bgr, middle, hand, HAND, CELL * (CELLS + 2 * RIM), turn_rad)
     inside = slice(RIM, -RIM)
     return channels(window, like_face(lab(window), face))[inside, inside].ravel()
-
-
-def fine_vector(bgr: Image, middle: Floats, hand: float, turn_rad: float = 0.0) -> np.ndarray:
-    """Return the fine window around a place, (4860,) float32; arguments as for `coarse_vector`."""
-    window = cut_window(bgr, middle, hand, FINE_HAND, CELL * (FINE + 2 * RIM), turn_rad)
-    found = like_palm(lab(cv2.GaussianBlur(window, (0, 0), 0.7)), FINE_HAND)
-    inside = channels(window, found)[RIM:-RIM, RIM:-RIM]
-    side = FINE // POOLED
-    return np.asarray(inside.reshape(side, POOLED, side, POOLED, CHANNELS).mean(axis=(1, 3)).ravel(), np.float32)
-
-
-def mirrored(fine: np.ndarray) -> np.ndarray:
-    """Return fine vectors (n, 4860) as seen in a mirror: the other hand."""
-    side = FINE // POOLED
-    turned = np.array([*(-np.arange(BINS) % BINS), BINS])
-    order = np.concatenate([turned, turned + BINS + 1, [CHANNELS - 1]])
-    return fine.reshape(-1, side, side, CHANNELS)[:, :, ::-1][..., order].reshape(len(fine), -1)
 
 
 def cut_window(bgr: Image, middle: Floats, hand: float, pixels: int, side: int, turn_rad: float = 0.0) -> Image:
