@@ -34,6 +34,7 @@ ASKED = (
 LEAST_SHARE = 0.5  # of the winner, below which there is no answer; 0.4 to 0.7 do nearly as well
 NO_HAND = "no hand"
 NOT_SHOWN = "a person is in view, but no raised hand stands out; show the hand beside the head, or come closer"
+NO_HAND_SHARE = 0.5  # of "no hand", from which an object is none; no close-up of a real hand came near it
 PALM_RADIUS, KNUCKLE = 0.2, 0.2  # hand lengths: the palm's largest disc, and from its middle to the knuckle
 
 
@@ -76,11 +77,27 @@ def look_at(bgr: Image, spots: Sequence[Spot]) -> list[Shares]:
     return sorted(found, key=lambda here: here.by_label[NO_HAND])
 
 
-def is_hand(bgr: Image, frame: HandFrame) -> bool:
-    """Whether an object divided from its surroundings is a hand, whichever; a face or a whole person is none."""
+def contradiction(bgr: Image, frame: HandFrame, label: str, in_doubt: bool) -> str:
+    """Say why an object divided from its surroundings does not show the posture that its outline says; "" if it may.
+
+    A face or a whole person is no hand, whatever its outline. Where it is in doubt that the object is a hand at all,
+    the network has to see the same posture, if it knows it.
+
+    Args:
+        bgr: (h, w, 3) the picture that the object was found in.
+        frame: its palm, and where its fingers point.
+        label: what the outline says.
+        in_doubt: a person may be in view, or the object is small in the picture.
+    """
     hand = frame.radius / PALM_RADIUS
     up = np.array([np.sin(frame.up_rad), -np.cos(frame.up_rad)])
-    return shares(bgr, frame.centre + KNUCKLE * hand * up, hand, -frame.up_rad)[NO_HAND] < 0.5
+    seen = shares(bgr, frame.centre + KNUCKLE * hand * up, hand, -frame.up_rad)
+    winner = max(seen, key=lambda name: seen[name])
+    if seen[NO_HAND] >= NO_HAND_SHARE:
+        return f"something with the outline of {label}, but by what is inside it no hand"
+    if in_doubt and label in known_labels() and winner != label:
+        return f"something with the outline of {label}, but not by what is inside it; come closer"
+    return ""
 
 
 def decide(found: Shares, among: set[str] | None = None) -> Decision:

@@ -152,7 +152,7 @@ class PhotoRecognizer:
             return []
         alone = person_postures.no_hand(decision) and is_plain(image)
         try:
-            seen = self._seen([c for c in close_up(image) if alone or c.fills()], among)
+            seen = self._seen([c for c in close_up(image) if alone or c.fills()], among, in_doubt=True)
         except NoSkinError:
             return []
         return seen if seen and not seen[0].decision.rejected else []
@@ -164,13 +164,15 @@ class PhotoRecognizer:
         """Return all candidates of a photo, the best hand first."""
         return self._seen(candidates(image), among)
 
-    def _seen(self, found: list[Candidate], among: set[str] | None) -> list[Seen]:
+    def _seen(self, found: list[Candidate], among: set[str] | None, in_doubt: bool = False) -> list[Seen]:
         seen = []
         for candidate in found:
             decision = self.model.decide(descriptors.describe(candidate.mask, candidate.frame), among)
-            if not decision.rejected and not person_postures.is_hand(candidate.image, candidate.frame):
-                reason = f"something with the outline of {decision.nearest}, but by what is inside it no hand"
-                decision = dataclasses.replace(decision, label=None, rejected=True, reason=reason)
+            if decision.label is not None:
+                doubt = in_doubt or not candidate.fills()
+                reason = person_postures.contradiction(candidate.image, candidate.frame, decision.label, doubt)
+                if reason:
+                    decision = dataclasses.replace(decision, label=None, rejected=True, reason=reason)
             nearest = decision.neighbours[0].distance
             tilt = TILT_COST * (1 - np.cos(candidate.frame.up_rad)) / 2
             cost = nearest * SEGMENTATION_COST[candidate.segmentation] * (1 + tilt)
