@@ -9,13 +9,19 @@ chosen by looking at photos was chosen on the even ones.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import csv
 from pathlib import Path
+
+import numpy as np
 
 from recognizer.database import IRRELEVANT, Database
 from recognizer.dataset import Entry
 from recognizer.static import PhotoRecognizer, learn_from_photos
+from recognizer.static.errors import PhotoError
 from recognizer.static.evaluation import Score, on_photos, on_unknown_persons
+from recognizer.static.person_postures import NO_HAND, of_object
+from recognizer.static.photo import read_photo
 
 DIGITS = {
     "0": "round",
@@ -52,6 +58,26 @@ def report(title: str, score: Score) -> None:
             print(f"  {label:11s}", *(f"{n:4d}" for n in row))
 
 
+def network(recognizer: PhotoRecognizer, entries: list[Entry]) -> None:
+    """Report the network that names hands of a person in view, asked where the outlines say the hand is."""
+    named: list[tuple[bool, bool, str]] = []
+    for entry in entries:
+        with contextlib.suppress(PhotoError):
+            best = recognizer.look(read_photo(entry.path))[0].candidate
+            shares = of_object(best.image, best.frame)
+            winner = max(shares, key=lambda label: shares[label])
+            named.append((entry.label == IRRELEVANT, winner == entry.label, winner))
+    postures = [(right, winner) for other, right, winner in named if not other]
+    others = [winner for other, _, winner in named if other]
+    none = sum(winner == NO_HAND for *_, winner in named)
+    print(
+        f"the network, {len(named)} of the same photos: right {np.mean([right for right, _ in postures]):.3f}", end=""
+    )
+    wrong = np.mean([not right and winner in recognizer.labels for right, winner in postures])
+    rejected = np.mean([winner not in recognizer.labels for winner in others])
+    print(f", another posture {wrong:.3f}, others rejected {rejected:.3f}; {none} taken for no hand")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("photos", type=Path)
@@ -64,6 +90,7 @@ def main() -> None:
     odd = [entry for entry in entries if int(entry.person[1:]) % 2]
     recognizer = PhotoRecognizer(Database.load(arguments.database))
     report("shipped database, real photos of odd persons", on_photos(recognizer, odd))
+    network(recognizer, odd)
     only = recognizer.database.take(recognizer.database.labels != IRRELEVANT)
     report("the same without irrelevant hands in the database", on_photos(PhotoRecognizer(only), odd))
 

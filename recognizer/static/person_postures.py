@@ -77,6 +77,13 @@ def look_at(bgr: Image, spots: Sequence[Spot]) -> list[Shares]:
     return sorted(found, key=lambda here: here.by_label[NO_HAND])
 
 
+def of_object(bgr: Image, frame: HandFrame) -> dict[str, float]:
+    """Return :func:`shares` at the hand that an object would be, by its palm and where its fingers point."""
+    hand = frame.radius / PALM_RADIUS
+    up = np.array([np.sin(frame.up_rad), -np.cos(frame.up_rad)])
+    return shares(bgr, frame.centre + KNUCKLE * hand * up, hand, -frame.up_rad)
+
+
 def contradiction(bgr: Image, frame: HandFrame, label: str, in_doubt: bool) -> str:
     """Say why an object divided from its surroundings does not show the posture that its outline says; "" if it may.
 
@@ -89,9 +96,7 @@ def contradiction(bgr: Image, frame: HandFrame, label: str, in_doubt: bool) -> s
         label: what the outline says.
         in_doubt: a person may be in view, or the object is small in the picture.
     """
-    hand = frame.radius / PALM_RADIUS
-    up = np.array([np.sin(frame.up_rad), -np.cos(frame.up_rad)])
-    seen = shares(bgr, frame.centre + KNUCKLE * hand * up, hand, -frame.up_rad)
+    seen = of_object(bgr, frame)
     winner = max(seen, key=lambda name: seen[name])
     if seen[NO_HAND] >= NO_HAND_SHARE:
         return f"something with the outline of {label}, but by what is inside it no hand"
