@@ -108,6 +108,8 @@ def contradiction(bgr: Image, frame: HandFrame, label: str, in_doubt: bool) -> s
 def decide(found: Shares, among: set[str] | None = None) -> Decision:
     """Name the posture, or reject it: other hand, no hand, or in doubt.
 
+    The distance is what the likeliest posture's share lacks to 1.
+
     Args:
         found: shares of one spot.
         among: labels that the context allows; all when None.
@@ -116,8 +118,8 @@ def decide(found: Shares, among: set[str] | None = None) -> Decision:
     total = max(sum(allowed.values()), 1e-12)
     votes = {label: share / total for label, share in allowed.items()}
     winner = max(votes, key=lambda label: votes[label])
-    distance = 1 - votes[winner]
     none = winner in (IRRELEVANT, NO_HAND)
+    distance = 1 - max((share for label, share in votes.items() if label not in (IRRELEVANT, NO_HAND)), default=0.0)
     rejected = none or distance > 1 - LEAST_SHARE
     reason = ""
     if winner == NO_HAND:

@@ -12,7 +12,7 @@ from nao_sim.resources import resource
 from recognizer.finder import Body
 from recognizer.static import PhotoRecognizer, candidates, person, person_postures, recognise, windows
 from recognizer.static.contrast import divide
-from recognizer.static.errors import NoHandError
+from recognizer.static.errors import NoHandError, PhotoError
 from recognizer.static.hand_finder import HAND, Spot, face_colour, find_hands, search
 from recognizer.static.person import SMALLEST, Person, Place, find_person, look_closer, places
 
@@ -186,4 +186,44 @@ def test_doubt_other_hands_and_no_hand_are_rejected_with_the_reason(shares, labe
     answer = person_postures.decide(person_postures.Shares(spot, shares))
     assert answer.label == label
     assert answer.rejected == (label is None)
+    assert answer.rejected == (answer.distance > answer.threshold)
+    assert answer.distance == pytest.approx(1 - max(shares[name] for name in ("four", "three") if name in shares))
     assert said in answer.reason
+
+
+@pytest.mark.parametrize(("network", "in_doubt", "said"), [
+    ({"no hand": 0.8, "stop_hand": 0.2}, False, "no hand"),
+    ({"no hand": 0.1, "four": 0.6, "stop_hand": 0.3}, False, ""),
+    ({"no hand": 0.1, "four": 0.6, "stop_hand": 0.3}, True, "come closer"),
+    ({"no hand": 0.1, "four": 0.2, "stop_hand": 0.7}, True, ""),
+])  # fmt: skip
+def test_an_outline_alone_is_not_believed(monkeypatch, recognizer, network, in_doubt, said):
+    """What is no hand inside is none; what is inside has to agree where a person may be in view."""
+    from .conftest import hand_photo
+
+    monkeypatch.setattr(person_postures, "shares", lambda bgr, middle, hand, turn_rad=0.0: network)
+    found = candidates.close_up(hand_photo(unseen_hands("stop_hand", 1, seed=21)[0]))
+    best = recognizer._seen(found, None, in_doubt)[0]
+    assert best.decision.nearest == "stop_hand"
+    assert best.decision.rejected == bool(said)
+    assert said in best.decision.reason
+
+
+def test_who_shows_nothing_is_not_named(recognizer):
+    """Persons with their arms at rest, of a seed that nothing was learnt from."""
+    from nao_sim.people import photos
+    from nao_sim.people.dataset import plan
+    from nao_sim.people.motions import pose
+    from nao_sim.people.stage import Stage
+
+    named = []
+    with Stage(photos.DETAIL) as stage:
+        shots = [shot for shot in (job.photo() for job in plan(20, 2, 78, ["stop_hand"])) if not shot.close][:8]
+        for shot in shots:
+            resting = dataclasses.replace(shot, angles=pose("rest").angles)
+            try:
+                named.append(recognizer.recognize(photos.take_photo(stage, resting)).label)
+            except PhotoError:
+                named.append(None)
+    assert len(named) == 8
+    assert named.count(None) >= 7, named
