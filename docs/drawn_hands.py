@@ -11,11 +11,10 @@ import numpy as np
 
 from recognizer.database import IRRELEVANT
 from recognizer.static.model_hand import Build, Posture, pose, postures
-from recognizer.static.silhouettes import flesh, view_of
+from recognizer.static.silhouettes import flesh, seen_hull, view_of
 
 FINE = 3  # drawn so many times larger, then averaged
-PALM_WIDTHS = 2.37  # of a hand's length
-CIRCLE = np.column_stack([f(np.linspace(0, 2 * np.pi, 20, endpoint=False)) for f in (np.cos, np.sin)])
+PALM_WIDTHS = 2.37  # from the wrist to the fingertips of the average build
 # Lab of skin, from pale to dark; each hand is between two neighbours and departs from them by chance.
 SKINS = np.array([[86, 6, 14], [74, 12, 20], [62, 15, 24], [48, 15, 22], [34, 11, 15], [24, 7, 9]], float)
 
@@ -47,19 +46,16 @@ def _drawn(posture: Posture, hand: int, side: int, behind: np.ndarray, rng: np.r
     middle = FINE * side / 2 - (view @ skeleton.fingers["middle"][0])[:2] * [scale, -scale]
     bare = float(rng.choice([8.0, rng.uniform(0.0, 0.8)]))
     pieces = flesh(skeleton, build, 8.0)
-    order = sorted(range(len(pieces)), key=lambda k: float(np.mean([(view @ c)[2] for c, _ in pieces[k]])))
+    nearness = [float(np.mean([(view @ centre)[2] for centre, _ in piece])) for piece in pieces]
     skin, sleeve = _skin(rng), rng.uniform(10, 245, 3)
     depth, crease = rng.uniform(0, 0.5), rng.uniform(0, 0.35) * (rng.random() < 0.7)
-    paint = cv2.resize(behind, (FINE * side,) * 2, interpolation=cv2.INTER_LINEAR).astype(np.float32)
+    room = cv2.resize(behind, (FINE * side,) * 2, interpolation=cv2.INTER_LINEAR).astype(np.float32)
+    paint = room.copy()
     cover = np.zeros(paint.shape[:2], np.uint8)
-    for k in order:
-        points = np.array([view @ centre for centre, _ in pieces[k]])
-        rims = [
-            p[:2] * [scale, -scale] + middle + CIRCLE * (r * scale) for p, (_, r) in zip(points, pieces[k], strict=True)
-        ]
-        hull = cv2.convexHull(np.round(np.vstack(rims) * 16).astype(np.int32))
+    for k in np.argsort(nearness):  # from far to near
+        hull = seen_hull(pieces[k], view, scale, middle)
         below = np.mean([c[1] for c, _ in pieces[k]]) < -0.5 * bare - 0.2
-        colour = sleeve if below else skin * (1 + depth * (points[:, 2].mean() - 0.2) + rng.normal(0, 0.02))
+        colour = sleeve if below else skin * (1 + depth * (nearness[k] - 0.2) + rng.normal(0, 0.02))
         cv2.fillConvexPoly(paint, hull, tuple(map(float, colour)), cv2.LINE_AA, shift=4)
         if crease:
             edge = tuple(map(float, colour * (1 - crease)))
@@ -67,7 +63,6 @@ def _drawn(posture: Posture, hand: int, side: int, behind: np.ndarray, rng: np.r
         cv2.fillConvexPoly(cover, hull, 255, shift=4)
     soft = cv2.GaussianBlur(paint, (0, 0), FINE * rng.uniform(0.3, 1.0))  # the hand's own softness, not the room's
     inside = (cv2.GaussianBlur(cover, (0, 0), FINE * 0.5).astype(np.float32) / 255)[..., None]
-    room = cv2.resize(behind, (FINE * side,) * 2, interpolation=cv2.INTER_LINEAR).astype(np.float32)
     slope = rng.normal(0, 0.3, 2)
     ramp = np.linspace(-1, 1, FINE * side)
     light = (1 + slope[0] * ramp[:, None] + slope[1] * ramp)[..., None]

@@ -4,7 +4,7 @@ Usage: python docs/film_hands.py FOLDER [--persons 320] [--seed 301] [--vary 1] 
 
 Every person shows every posture, other hands that are none of them, and nothing at all. `hands.csv` has a row for each
 photo: file, label ("irrelevant ..." for other hands, "nothing"), person, x and y of the middle finger's knuckle, length
-of the hand, x and y of the top of the neck, in pixels. No seed of a reported person is used.
+of the hand, x and y of the top of the neck, in pixels. Train on one seed and report on another.
 
 Real people hold their fingers less exactly than `nao-sim film` shows them: `--vary` bends, spreads and turns them by so
 much more (0: not at all).

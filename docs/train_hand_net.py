@@ -25,13 +25,13 @@ from torch import nn
 from recognizer.static.hand_finder import find_heads, hand_template, search
 from recognizer.static.hand_finder_training import NOTHING, KnownHand, read_hands, with_head
 from recognizer.static.hand_net import CHANNELS, FILE, HAND, SIDE, STRIDES, look
+from recognizer.static.person_postures import NO_HAND
 from recognizer.static.photo import read_photo
 from recognizer.static.windows import cut_window
 
 MAPS, SIDES, WHOLE = (CHANNELS, 20, 32, 48, 64, 80, 80, 112), (5, 3, 3, 3, 3, 3, 3), 128
 AROUND = 128  # pixels of a window's side as it is kept, so that it can be moved, scaled and turned
 BATCH, SMOOTHED, DROPPED = 64, 0.05, 0.3
-NO_HAND = "no hand"
 MISTAKEN, MISTAKEN_NOTHING = 1, 3  # places that are taken for a hand and are none, in a photo with and without one
 DRAWN_HANDS = 12_000
 EPOCH = 42_000  # windows, others each time

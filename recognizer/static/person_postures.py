@@ -34,7 +34,7 @@ ASKED = (
 LEAST_SHARE = 0.5  # of the winner, below which there is no answer; 0.4 to 0.7 do nearly as well
 NO_HAND = "no hand"
 NOT_SHOWN = "a person is in view, but no raised hand stands out; show the hand beside the head, or come closer"
-NO_HAND_SHARE = 0.5  # of "no hand", from which an object is none; no close-up of a real hand came near it
+NO_HAND_SHARE = 0.5  # of "no hand", from which an object is none; no close-up of a real hand reaches it
 PALM_RADIUS, KNUCKLE = 0.2, 0.2  # hand lengths: the palm's largest disc, and from its middle to the knuckle
 
 

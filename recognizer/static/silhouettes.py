@@ -102,10 +102,15 @@ def draw(pieces: list[Piece], view: Floats, scale: float, origin: Floats, size: 
     """
     canvas = np.zeros((size, size), np.uint8)
     for piece in pieces:
-        rims = []
-        for centre, radius in piece:
-            x, y, _ = view @ centre
-            rims.append(np.array([x, -y]) * scale + origin + _CIRCLE * (radius * scale))
-        hull = cv2.convexHull(np.round(np.vstack(rims) * 16).astype(np.int32))
+        hull = seen_hull(piece, view, scale, origin)
         cv2.fillConvexPoly(canvas, hull, 255, shift=4)  # coordinates in sixteenths of a pixel
     return canvas > 0
+
+
+def seen_hull(piece: Piece, view: Floats, scale: float, origin: Floats) -> np.ndarray:
+    """Return the outline of one piece, (n, 1, 2) int32 in sixteenths of a pixel; arguments as for :func:`draw`."""
+    rims = []
+    for centre, radius in piece:
+        x, y, _ = view @ centre
+        rims.append(np.array([x, -y]) * scale + origin + _CIRCLE * (radius * scale))
+    return np.asarray(cv2.convexHull(np.round(np.vstack(rims) * 16).astype(np.int32)))

@@ -1,4 +1,4 @@
-"""The network that names hands, in NumPy against plain correlations, and what must hold whatever its weights are."""
+"""The network that names hands: NumPy against plain correlations, what it reads, and drawn hands that it names."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def test_several_windows_are_answered_as_each_alone() -> None:
 
 
 def test_a_look_is_of_shapes_and_of_colours_beyond_the_palms() -> None:
-    """Twice the light, or another palm's colour everywhere, changes little; the middle is the palm, so it is zero."""
+    """Less light changes the evened lightness little; where the palm is, no colour is beyond the palm's."""
     shown = look(window())
     assert shown.shape == (SIDE, SIDE, CHANNELS)
     darker = look((window() * 0.6).astype(np.uint8))
@@ -56,7 +56,7 @@ def test_a_flat_window_is_no_posture() -> None:
 
 @pytest.mark.parametrize("label", ["stop_hand", "victory", "pointing"])
 def test_drawn_hands_that_it_has_never_seen_are_named(label: str) -> None:
-    """Flat silhouettes of the model hand, of another make than the figures it was trained on."""
+    """Flat silhouettes, of builds and with edges, light and paper other than those of drawn hands in its training."""
     net = HandNet.load()
     right = []
     for mask in unseen_hands(label, 6, seed=5):

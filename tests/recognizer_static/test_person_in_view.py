@@ -13,6 +13,7 @@ from recognizer.finder import Body
 from recognizer.static import PhotoRecognizer, candidates, person, person_postures, recognise, windows
 from recognizer.static.contrast import divide
 from recognizer.static.errors import NoHandError, PhotoError
+from recognizer.static.explain import explain_photo
 from recognizer.static.hand_finder import HAND, Spot, face_colour, find_hands, search
 from recognizer.static.person import SMALLEST, Person, Place, find_person, look_closer, places
 
@@ -82,12 +83,15 @@ def test_hands_of_filmed_persons_are_named_and_seldom_wrongly():
         shots = (job.photo() for job in plan(32, 2, 77, ["stop_hand", "victory", "pointing", "round"]))
         for photo in [p for p in shots if not p.close][:24]:
             try:
-                label = recognizer.recognize(photos.take_photo(stage, photo)).label
+                picture = photos.take_photo(stage, photo)
+                label = recognizer.recognize(picture).label
+                twin = recognizer.recognize(np.ascontiguousarray(picture[:, ::-1])).label
             except NoHandError:
-                label = None
-            found.append((label == photo.label, label not in (None, photo.label)))
-    right, wrong = np.mean(found, axis=0)
+                label = twin = None
+            found.append((label == photo.label, label not in (None, photo.label), label == twin))
+    right, wrong, mirrored = np.mean(found, axis=0)
     assert len(found) >= 20
+    assert mirrored >= 0.8, found
     assert right >= 0.8, found
     assert wrong <= 0.05, found
 
@@ -207,6 +211,19 @@ def test_an_outline_alone_is_not_believed(monkeypatch, recognizer, network, in_d
     assert best.decision.nearest == "stop_hand"
     assert best.decision.rejected == bool(said)
     assert said in best.decision.reason
+
+
+def test_explain_shows_where_the_hand_of_a_person_is_and_what_is_read_there(monkeypatch, recognizer, tmp_path):
+    picture, body, middle = person_photo(unseen_hands("stop_hand", 1, seed=21)[0], 80.0)
+    with_head(monkeypatch, body)
+    drawn = {path.stem[3:]: cv2.imread(str(path)) for path in explain_photo(picture, recognizer, tmp_path)}
+    assert drawn["head_and_hands"].shape == picture.shape
+    changed = np.abs(drawn["head_and_hands"].astype(int) - picture).sum(axis=2) > 60
+    for x, y in ((body.x, body.y), middle):  # an outline around the head, and a square around the hand
+        around = np.s_[int(max(0, y - body.head)) : int(y + body.head), int(max(0, x - body.head)) : int(x + body.head)]
+        assert changed[around].any()
+    spots = seen(picture, body).spots[: person.SHOWN]
+    assert drawn["what_the_network_reads"].shape == (240 * len(spots), 960, 3)
 
 
 def test_who_shows_nothing_is_not_named(recognizer):
