@@ -19,17 +19,21 @@ LONGEST_SECONDS = 10.0  # then it is cut, so that memory is bounded
 class Segmenter:
     """Takes frames one by one and gives the samples of each gesture when it has ended."""
 
-    def __init__(self, fps: float, first_index: int = 0, source: str = "stream") -> None:
+    def __init__(self, fps: float | None, first_index: int = 0, source: str = "stream") -> None:
         self.watch = Track(fps, first_index, source, find_body=False)
         self._begun: float | None = None
         self._moved = 0.0
         self._shot = -math.inf  # when the shot began
 
-    def push(self, frame: np.ndarray) -> Iterator[list[Sample]]:
-        """Take one BGR frame; yield the samples of the gesture that it ends, if it ends one."""
-        seen = len(self.watch.regions) and self.watch.regions[-1].time
-        self.watch.push(frame)
-        if not self.watch.regions or self.watch.regions[-1].time == seen:
+    def push(self, frame: np.ndarray, time: float | None = None) -> Iterator[list[Sample]]:
+        """Take one BGR frame; yield the samples of each gesture that it ends; arguments as of :meth:`Track.push`."""
+        for sample in self.watch.sampler.feed(frame, time):
+            self.watch.take(sample)
+            yield from self._observe()
+
+    def _observe(self) -> Iterator[list[Sample]]:
+        """Look at what moved up to the last sample."""
+        if not self.watch.regions:
             return
         latest = self.watch.regions[-1]
         if self.watch.scene.cut:

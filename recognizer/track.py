@@ -15,7 +15,7 @@ from recognizer.flow import horn_schunck
 from recognizer.head_follow import HeadFollower
 from recognizer.head_motion import HeadMotion
 from recognizer.motion_watch import MotionWatch
-from recognizer.samples import LOOKS, Sample, Sampler
+from recognizer.samples import LOOKS, RATE, Sample, Sampler
 from recognizer.scene import Scene
 from recognizer.steps import Steps
 from recognizer.window import Windows
@@ -30,7 +30,7 @@ class Track:
     """Samples, flow, moving regions and the person's window of a clip, frame by frame.
 
     Args:
-        fps: frames per second.
+        fps: frames per second; None when every frame comes with its time.
         first_index: number of the first frame in its source.
         source: name for messages.
         find_body: follow the person's window as well; the thesis's method does without.
@@ -44,7 +44,7 @@ class Track:
 
     def __init__(
         self,
-        fps: float,
+        fps: float | None,
         first_index: int = 0,
         source: str = "stream",
         find_body: bool = True,
@@ -53,7 +53,7 @@ class Track:
         self.source = source
         self.sampler = Sampler(fps, first_index)
         kept = self.sampler.kept
-        self.regions: deque[MovingRegions] = deque(maxlen=kept)
+        self.regions: deque[MovingRegions] = deque(maxlen=kept - 1)  # one between two samples
         self.steps = Steps(kept)
         self._waiting: deque[Sample] = deque(maxlen=kept)
         self._finder = BodyFinder() if find_body else None
@@ -88,23 +88,27 @@ class Track:
         assert self._watch is not None
         return self._watch.features
 
-    def push(self, frame: np.ndarray) -> None:
+    def push(self, frame: np.ndarray, time: float | None = None) -> None:
         """Take one frame, (h, w, 3) uint8 BGR, all of one size.
+
+        Args:
+            frame: the picture.
+            time: seconds from the first frame; None at a steady rate.
 
         Raises:
             ClipError: the frame has another size than those before.
         """
-        sample = self.sampler.push(frame)
-        if sample is not None:
-            self._take(sample)
+        for sample in self.sampler.feed(frame, time):
+            self.take(sample)
 
     def push_sample(self, sample: Sample) -> None:
         """Take a sample that another track has made of a frame."""
         self.sampler.samples.append(sample)
         self.sampler.pushed = sample.index + 1 - self.sampler.first_index
-        self._take(sample)
+        self.take(sample)
 
-    def _take(self, sample: Sample) -> None:
+    def take(self, sample: Sample) -> None:
+        """Measure the next sample of :attr:`sampler`; what :meth:`push` does with each."""
         before, self._before = self._before, sample
         self.scene.observe(sample)
         if before is not None:
@@ -145,7 +149,7 @@ class Track:
         """
         n = len(self.sampler.samples)
         if n < MIN_SAMPLES:
-            need = MIN_SAMPLES / min(self.sampler.fps, 10.0)
+            need = MIN_SAMPLES / min(self.sampler.fps or RATE, RATE)
             raise ClipError(
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
@@ -161,7 +165,7 @@ def track_clip(clip: Clip, find_body: bool = True, mirrored: bool = False) -> Tr
         ClipError: the clip cannot be read or is too short.
     """
     track = Track(clip.fps, clip.frames[0], clip.source, find_body, mirrored)
-    for frame in clip:
-        track.push(frame)
+    for time, frame in clip.timed():
+        track.push(frame, time)
     track.end()
     return track
