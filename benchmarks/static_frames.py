@@ -10,8 +10,8 @@ from pathlib import Path
 
 from nao_sim.resources import resource
 from recognizer import open_clip
-from recognizer.static import PhotoRecognizer
-from recognizer.static.errors import PhotoError
+from recognizer.postures import PhotoRecognizer
+from recognizer.postures.errors import PhotoError
 
 
 def main() -> None:
