@@ -63,6 +63,7 @@ class Track:
         self._head_rows: deque[np.ndarray] = deque(maxlen=kept * LOOKS)
         self._watch = MotionWatch(kept, mirrored) if find_body else None
         self.scene = Scene()
+        self._first_time = 0.0
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
 
@@ -72,10 +73,17 @@ class Track:
         return list(self.sampler.samples)
 
     @property
-    def body(self) -> Body:
-        """Place and size of the person [px of the samples' pictures]; decided now if it was not yet."""
-        assert self._finder is not None
-        return self._finder.decide()
+    def body(self) -> Body | None:
+        """Place and size of the person [px of the samples' pictures], None where no place looks like one.
+
+        Decided now if it was not yet.
+        """
+        return None if self._finder is None else self._finder.decide()
+
+    @property
+    def whole(self) -> bool:
+        """Whether every sample of the clip is still kept."""
+        return bool(self.sampler.samples) and self.sampler.samples[0].time == self._first_time
 
     @property
     def head_motion(self) -> np.ndarray:
@@ -110,6 +118,8 @@ class Track:
     def take(self, sample: Sample) -> None:
         """Measure the next sample of :attr:`sampler`; what :meth:`push` does with each."""
         before, self._before = self._before, sample
+        if before is None:
+            self._first_time = sample.time
         self.scene.observe(sample)
         if before is not None:
             if before.grey.shape != sample.grey.shape:
@@ -129,7 +139,9 @@ class Track:
         """Measure a few of the samples that have waited for the person to be found."""
         assert self._watch is not None
         if self._windows is None or self._follower is None:
-            self._windows, self._follower = Windows(self.body), HeadFollower(self.body)
+            body = self.body
+            assert body is not None
+            self._windows, self._follower = Windows(body), HeadFollower(body)
         taken = []
         for _ in range(min(CATCH_UP, len(self._waiting))):
             sample = self._waiting.popleft()
@@ -153,7 +165,7 @@ class Track:
             raise ClipError(
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
-        if self._finder is not None:
+        if self.body is not None:
             while self._waiting:
                 self._work_off()
 

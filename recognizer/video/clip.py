@@ -53,6 +53,14 @@ class Clip:
     threads: int = 0
     array: np.ndarray | None = dataclasses.field(default=None, repr=False, compare=False)
 
+    @property
+    def seconds(self) -> float | None:
+        """How long the part that is used lasts as the header promises, None when it does not say."""
+        if self.frame_count is None:
+            return None
+        first, last = self.frames
+        return (min(self.frame_count, self.frame_count if last is None else last + 1) - first) / self.fps
+
     def __iter__(self) -> Iterator[np.ndarray]:
         """Yield frames, (height, width, 3) uint8 BGR."""
         return (frame for _, frame in self.timed())
@@ -93,8 +101,7 @@ class Clip:
             raise ClipError(
                 f"{source}: need (n, height, width[, channels]) uint8 frames, got {stack.dtype} {stack.shape}"
             )
-        _check_size(source, stack.shape[2], stack.shape[1])
-        stack = np.stack([_fit(_as_bgr(frame)) for frame in stack])
+        stack = np.stack([as_frame(frame, source) for frame in stack])
         rate, warnings = _plausible_fps(fps)
         size = (stack.shape[2], stack.shape[1])
         return cls(source, rate, size, len(stack), still=len(stack) == 1, warnings=warnings, array=stack)
@@ -171,7 +178,7 @@ def _url(path: str) -> str:
 
 def _stamps(capture: cv2.VideoCapture) -> list[float]:
     """Time stamps [s] of the next frames."""
-    stamps = []
+    stamps: list[float] = []
     while len(stamps) < STAMPS_READ and capture.grab():
         stamps.append(capture.get(cv2.CAP_PROP_POS_MSEC) / 1000)
     return stamps
@@ -226,6 +233,21 @@ def _read_still(file: Path) -> np.ndarray:
 def _check_size(source: str, width: int, height: int) -> None:
     if min(width, height) < MIN_SIDE:
         raise ClipError(f"{source} is {width}×{height} px; a person cannot be seen below {MIN_SIDE} px, film larger")
+
+
+def as_frame(frame: np.ndarray, source: str) -> np.ndarray:
+    """A picture from anywhere as a frame, (h, w, 3) uint8 BGR, of a size that is worked with.
+
+    Raises:
+        ClipError: not an 8-bit picture, or too small.
+    """
+    if not isinstance(frame, np.ndarray) or frame.dtype != np.uint8 or frame.ndim not in (2, 3):
+        what = f"{frame.dtype} {frame.shape}" if isinstance(frame, np.ndarray) else type(frame).__name__
+        raise ClipError(f"{source}: a frame is (h, w[, 1, 3 or 4]) uint8, got {what}; scale to 0 … 255 and convert")
+    if frame.ndim == 3 and frame.shape[2] not in (1, 3, 4):
+        raise ClipError(f"{source}: a frame has 1, 3 or 4 channels, got {frame.shape[2]}; convert it to BGR")
+    _check_size(source, frame.shape[1], frame.shape[0])
+    return _fit(_as_bgr(frame))
 
 
 def _as_bgr(frame: np.ndarray) -> np.ndarray:

@@ -65,10 +65,9 @@ class _Grid:
 
     def take(self, number: int, time: float, step: float, steady: bool) -> bool:
         """Whether frame ``number`` at ``time``, ``step`` seconds after the one before, is on the grid."""
-        if steady:
-            on = number >= round(self._taken * self._frames)
-        else:
-            on = time >= self._due - min(step, self._period) / 2
+        # A frame of an uneven source is on the grid where the next one would be farther from it.
+        early = min(step, self._period) / 2
+        on = number >= round(self._taken * self._frames) if steady else time >= self._due - early
         if on:
             self._taken += 1
             self.begin(self._taken * self._frames / self._fps if steady and self._fps else self._after(time))
