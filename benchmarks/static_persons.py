@@ -16,10 +16,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from nao_sim.people import photos
-from nao_sim.people.dataset import plan
-from nao_sim.people.known_hand import known_hand
-from nao_sim.people.stage import Stage
+from nao_sim.people.datasets.dataset import plan
+from nao_sim.people.filming import photos
+from nao_sim.people.filming.hand_ground_truth import known_hand
+from nao_sim.people.filming.stage import Stage
 from recognizer.static import PhotoRecognizer
 from recognizer.static.errors import PhotoError
 from recognizer.static.hand_finder_training import read_hands

@@ -22,13 +22,13 @@ import joblib
 import numpy as np
 from numpy.random import Generator
 
-from nao_sim.people import photos
-from nao_sim.people.dataset import CHILDREN
-from nao_sim.people.known_hand import known_hand
-from nao_sim.people.motions import hand_postures, joint_ranges, joints, pose, tables
-from nao_sim.people.persons import Person
-from nao_sim.people.shots import draw_cast, generator
-from nao_sim.people.stage import Stage
+from nao_sim.people.actors.persons import Person
+from nao_sim.people.datasets.dataset import CHILDREN
+from nao_sim.people.filming import photos
+from nao_sim.people.filming.hand_ground_truth import known_hand
+from nao_sim.people.filming.shots import draw_cast, generator
+from nao_sim.people.filming.stage import Stage
+from nao_sim.people.performance.motions import hand_postures, joint_ranges, joints, pose, tables
 
 COLUMNS = ("file", "label", "person", "x", "y", "hand", "neck_x", "neck_y")
 POSTURE_TAKES, OTHER_TAKES, NOTHING_TAKES = 7, 2, 12  # of each posture, of each other hand, of nothing

@@ -11,14 +11,14 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from nao_sim.people.camera import Camera, Light
-from nao_sim.people.clothes import draw_outfit
-from nao_sim.people.motions import hand_postures, joints
-from nao_sim.people.persons import Person
-from nao_sim.people.photos import DETAIL, draw_photo, postures, take_photo
-from nao_sim.people.rooms import BOX, FACING, Item
-from nao_sim.people.shots import draw_cast
-from nao_sim.people.stage import Stage
+from nao_sim.people.actors.clothes import draw_outfit
+from nao_sim.people.actors.persons import Person
+from nao_sim.people.filming.camera import Camera, Light
+from nao_sim.people.filming.photos import DETAIL, draw_photo, postures, take_photo
+from nao_sim.people.filming.rooms import BOX, FACING, Item
+from nao_sim.people.filming.shots import draw_cast
+from nao_sim.people.filming.stage import Stage
+from nao_sim.people.performance.motions import hand_postures, joints
 
 FLOOR = Item(BOX, (0.0, 0.0, -0.1), (6.0, 6.0, 0.1), (0.62, 0.62, 0.6))
 WALL = Item(BOX, (-1.2, 0.0, 1.0), (6.0, 6.0, 0.02), (0.86, 0.88, 0.9), "plain", FACING)

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from nao_sim.people.heads import heads_of_film
+from nao_sim.people.datasets.head_ground_truth import heads_of_film
 from recognizer import closer, ranking
 from recognizer.finder_training import train, train_closer, train_ranking
 from recognizer.known_heads import KnownHead
