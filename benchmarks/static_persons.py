@@ -1,8 +1,8 @@
 """Measure the posture recogniser on rendered photos of a person with face, arm and hand in view, by size of the hand.
 
-Usage: python -P benchmarks/static_persons.py [FOLDER] [--persons even|odd] [--every N]
+Usage: python benchmarks/static_persons.py [FOLDER] [--persons even|odd] [--every N]
 
-FOLDER is what docs/film_hands.py filmed with a seed of its own (`--persons 20 --seed 402`); other hands and photos in
+FOLDER is what tools/film_hands.py filmed with a seed of its own (`--persons 20 --seed 402`); other hands and photos in
 which nothing is shown are reported apart. Without it persons are filmed as `nao-sim film` films them: what was chosen
 by looking at such photos was chosen on persons with odd numbers, and even ones are reported.
 """

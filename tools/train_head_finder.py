@@ -1,4 +1,4 @@
-"""Learn how heads are found and fitted anew: ``MUJOCO_GL=egl python docs/train_head_finder.py SET [SET …]``.
+"""Learn how heads are found and fitted anew: ``MUJOCO_GL=egl python tools/train_head_finder.py SET [SET …]``.
 
 Each SET is a folder that ``nao-sim film`` made; its shots are staged again to see where the heads are. Three parts are
 learned one after the other, each on persons whom the one before does not know:

@@ -1,4 +1,4 @@
-"""Make the pictures of models/nao: ``python docs/render_nao.py`` (needs EGL or OSMesa)."""
+"""Make the pictures of models/nao: ``python tools/render_nao.py`` (needs EGL or OSMesa)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Render models/person/person.jpg: persons of a cast side by side, and the seven hand postures.
 
-python docs/render_people.py
+python tools/render_people.py
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Take a picture of a recording with Rerun's headless viewer.
 
-    python docs/screenshot.py demo/episode.rrd 5.0 docs/episode.png
+    python tools/screenshot.py demo/episode.rrd 5.0 docs/episode.png
 
 Needs a Vulkan driver (on Debian or Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1) and ``rerun`` on the PATH.
 The viewer's remote control is experimental in Rerun 0.41, so it stays out of the package.

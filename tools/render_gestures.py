@@ -1,6 +1,6 @@
 """Draw docs/gestures.jpg: every gesture of the library at its most telling moment.
 
-python docs/make_gesture_sheet.py
+python tools/render_gestures.py
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from nao_sim.gestures import library
 from nao_sim.gestures.act import act
 from nao_sim.robot import Nao
 
+OUT = Path(__file__).resolve().parents[1] / "docs" / "gestures.jpg"
 COLUMNS, SIZE = 8, (170, 190)
 # The moment shown, by mark, where it is not the one furthest from standing.
 MARKS = ("hold", "bowed", "up")
@@ -41,7 +42,11 @@ def main():
         tiles.append(tile)
     tiles += [np.full_like(tiles[0], 255)] * (-len(tiles) % COLUMNS)
     rows = [np.hstack(tiles[first : first + COLUMNS]) for first in range(0, len(tiles), COLUMNS)]
-    cv2.imwrite(str(Path(__file__).with_name("gestures.jpg")), np.vstack(rows), [cv2.IMWRITE_JPEG_QUALITY, 82])
+    cv2.imwrite(
+        str(OUT),
+        np.vstack(rows),
+        [cv2.IMWRITE_JPEG_QUALITY, 82],
+    )
 
 
 if __name__ == "__main__":

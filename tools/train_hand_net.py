@@ -1,7 +1,7 @@
-"""Learn the network of ``recognizer/static/hand_net.py`` anew: ``python docs/train_hand_net.py FOLDER [FOLDER ...]``.
+"""Learn the network of ``recognizer/static/hand_net.py`` anew: ``python tools/train_hand_net.py FOLDER [FOLDER ...]``.
 
-Needs PyTorch, the extra ``network``. A FOLDER is what ``docs/film_hands.py`` filmed; the windows of its hands and of
-places that the hand finder takes for one are kept in FOLDER/windows.npz. Drawn hands (``docs/drawn_hands.py``) join
+Needs PyTorch, the extra ``network``. A FOLDER is what ``tools/film_hands.py`` filmed; the windows of its hands and of
+places that the hand finder takes for one are kept in FOLDER/windows.npz. Drawn hands (``tools/drawn_hands.py``) join
 them.
 
 Windows stand a little beside the hand, are a little too large or small and turned, as hands are found; half of them are

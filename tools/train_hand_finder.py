@@ -1,7 +1,7 @@
-"""Learn the template of ``recognizer/static/hand_finder.py`` anew: ``python docs/train_hand_finder.py FOLDER``.
+"""Learn the template of ``recognizer/static/hand_finder.py`` anew: ``python tools/train_hand_finder.py FOLDER``.
 
-FOLDER is what ``docs/film_hands.py`` filmed; every ``--every``-th of its photos is used. Photos labelled by hand serve
-as well. The network of ``docs/train_hand_net.py`` is learnt at the places that the template finds.
+FOLDER is what ``tools/film_hands.py`` filmed; every ``--every``-th of its photos is used. Photos labelled by hand serve
+as well. The network of ``tools/train_hand_net.py`` is learnt at the places that the template finds.
 """
 
 from __future__ import annotations

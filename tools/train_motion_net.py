@@ -1,4 +1,4 @@
-"""Learn the network of ``recognizer/motion_net.py`` anew: ``python docs/train_motion_net.py SET``.
+"""Learn the network of ``recognizer/motion_net.py`` anew: ``python tools/train_motion_net.py SET``.
 
 Needs PyTorch, the extra ``network``.
 

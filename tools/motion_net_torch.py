@@ -1,4 +1,4 @@
-"""The network of ``recognizer/motion_net.py`` in PyTorch, as ``docs/train_motion_net.py`` trains it."""
+"""The network of ``recognizer/motion_net.py`` in PyTorch, as ``tools/train_motion_net.py`` trains it."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Film persons who show a hand, with where it is: photos from which a hand in view is learnt to be found and named.
 
-Usage: python docs/film_hands.py FOLDER [--persons 320] [--seed 301] [--vary 1] [--jobs 2]
+Usage: python tools/film_hands.py FOLDER [--persons 320] [--seed 301] [--vary 1] [--jobs 2]
 
 Every person shows every posture, other hands that are none of them, and nothing at all. `hands.csv` has a row for each
 photo: file, label ("irrelevant ..." for other hands, "nothing"), person, x and y of the middle finger's knuckle, length

@@ -1,7 +1,7 @@
 """Windows of hands that are drawn rather than filmed: `recognizer.static.model_hand` with flesh, shades and creases.
 
 They have other proportions than the figure's hands and anything behind them, from nearly flat to deeply shaded, so that
-the network of ``docs/train_hand_net.py`` does not learn how one renderer draws a folded finger.
+the network of ``tools/train_hand_net.py`` does not learn how one renderer draws a folded finger.
 """
 
 from __future__ import annotations
