@@ -1,7 +1,7 @@
 """Everything in a photo that may be a hand: objects of several segmentations, each looked at closely.
 
 The skin box of eq. 1 after Gray-World comes first; without Gray-World and the departure from a plain background stand
-in where light or skin defeat it. Where a person is in view, hands are looked for off the head (`person.person_in_view`). Which
+in where light or skin defeat it. Where a person is in view, hands are looked for off the head (`person`). Which
 candidate is the hand is decided later, by its distance to known hands.
 """
 
