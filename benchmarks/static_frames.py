@@ -14,8 +14,8 @@ from recordings import add_option, recorded
 
 from nao_sim.resources import resource
 from recognizer import open_clip
-from recognizer.static import PhotoRecognizer
-from recognizer.static.errors import PhotoError
+from recognizer.postures import PhotoRecognizer
+from recognizer.postures.errors import PhotoError
 
 NO_POSTURE = ("negative/*.m*", "dynamic/PS7A1*.avi", "dynamic/PS7A3*.avi")
 

@@ -20,10 +20,10 @@ from nao_sim.people.datasets.dataset import plan
 from nao_sim.people.filming import photos
 from nao_sim.people.filming.hand_ground_truth import known_hand
 from nao_sim.people.filming.stage import Stage
-from recognizer.static import PhotoRecognizer
-from recognizer.static.errors import PhotoError
-from recognizer.static.hand_finder_training import read_hands
-from recognizer.static.photo import read_photo
+from recognizer.postures import PhotoRecognizer
+from recognizer.postures.errors import PhotoError
+from recognizer.postures.person.training.hand_finder_training import read_hands
+from recognizer.postures.photo import read_photo
 
 PERSONS, TAKES, SEED = 40, 6, 3
 SIZES = ((18, 24), (24, 30), (30, 36), (36, 44), (44, 60), (60, 200))  # length of a hand, pixels

@@ -16,13 +16,13 @@ from pathlib import Path
 import numpy as np
 from recordings import add_option, recorded
 
-from recognizer.database import IRRELEVANT, Database
-from recognizer.dataset import Entry
-from recognizer.static import PhotoRecognizer, learn_from_photos
-from recognizer.static.errors import PhotoError
-from recognizer.static.evaluation import Score, on_photos, on_unknown_persons
-from recognizer.static.person_postures import NO_HAND, of_object
-from recognizer.static.photo import read_photo
+from recognizer.evaluation.dataset import Entry
+from recognizer.learning.database import IRRELEVANT, Database
+from recognizer.postures import PhotoRecognizer, learn_from_photos
+from recognizer.postures.errors import PhotoError
+from recognizer.postures.evaluation import Score, on_photos, on_unknown_persons
+from recognizer.postures.person.posture_shares import NO_HAND, of_object
+from recognizer.postures.photo import read_photo
 
 DIGITS = {
     "0": "round",

@@ -1,4 +1,4 @@
-"""Windows of hands that are drawn rather than filmed: `recognizer.static.model_hand` with flesh, shades and creases.
+"""Windows of hands that are drawn rather than filmed: `recognizer.postures.model_hand` with flesh, shades and creases.
 
 They have other proportions than the figure's hands and anything behind them, from nearly flat to deeply shaded, so that
 the network of ``tools/train_hand_net.py`` does not learn how one renderer draws a folded finger.
@@ -9,9 +9,9 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from recognizer.database import IRRELEVANT
-from recognizer.static.model_hand import Build, Posture, pose, postures
-from recognizer.static.silhouettes import flesh, seen_hull, view_of
+from recognizer.learning.database import IRRELEVANT
+from recognizer.postures.model_hand.silhouettes import flesh, seen_hull, view_of
+from recognizer.postures.model_hand.skeleton import Build, Posture, pose, postures
 
 FINE = 3  # drawn so many times larger, then averaged
 PALM_WIDTHS = 2.37  # from the wrist to the fingertips of the average build

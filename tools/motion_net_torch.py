@@ -1,4 +1,4 @@
-"""The network of ``recognizer/motion_net.py`` in PyTorch, as ``tools/train_motion_net.py`` trains it."""
+"""The network of ``recognizer/networks/motion_net.py`` in PyTorch, as ``tools/train_motion_net.py`` trains it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import nn
 
-from recognizer.motion_net import DILATIONS, FEATURES, STRIDES
+from recognizer.networks.motion_net import DILATIONS, FEATURES, STRIDES
 
 CHANNELS, SIDES = (2, 8, 16, 32, 40, 48), (5, 3, 3, 3, 3)  # of the convolutions over space
 SEEN, HEAD, TIME = 64, 32, 96  # numbers of a step: of all it sees, of the head; of the convolutions over time
@@ -16,7 +16,7 @@ DROPPED = 0.15
 
 
 class Net(nn.Module):
-    """The layers of :class:`recognizer.motion_net.MotionNet` before they are folded, and one that names."""
+    """The layers of :class:`recognizer.networks.motion_net.MotionNet` before they are folded, and one that names."""
 
     def __init__(self, classes: int) -> None:
         super().__init__()
@@ -57,7 +57,7 @@ class Net(nn.Module):
         return self.name(drop(whole, DROPPED, self.training))
 
     def folded(self) -> dict[str, np.ndarray]:
-        """Weights as :class:`recognizer.motion_net.Layer` reads them."""
+        """Weights as :class:`recognizer.networks.motion_net.Layer` reads them."""
         arrays = {}
         for name, layers in (("space", self.space), ("time", self.time)):
             for k, (convolution, norm, _) in enumerate(layers):

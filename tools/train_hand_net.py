@@ -1,4 +1,4 @@
-"""Learn the network of ``recognizer/static/hand_net.py`` anew: ``python tools/train_hand_net.py FOLDER [FOLDER ...]``.
+"""Learn the network of `recognizer.postures.person.hand_net` anew: ``python tools/train_hand_net.py FOLDER …``.
 
 Needs PyTorch, the extra ``network``. A FOLDER is what ``tools/film_hands.py`` filmed; the windows of its hands and of
 places that the hand finder takes for one are kept in FOLDER/windows.npz. Drawn hands (``tools/drawn_hands.py``) join
@@ -22,12 +22,12 @@ import torch
 from drawn_hands import drawn_hands
 from torch import nn
 
-from recognizer.static.hand_finder import find_heads, hand_template, search
-from recognizer.static.hand_finder_training import NOTHING, KnownHand, read_hands, with_head
-from recognizer.static.hand_net import CHANNELS, FILE, HAND, SIDE, STRIDES, look
-from recognizer.static.person_postures import NO_HAND
-from recognizer.static.photo import read_photo
-from recognizer.static.windows import cut_window
+from recognizer.postures.person.hand_finder import find_heads, hand_template, search
+from recognizer.postures.person.hand_net import CHANNELS, FILE, HAND, SIDE, STRIDES, look
+from recognizer.postures.person.posture_shares import NO_HAND
+from recognizer.postures.person.training.hand_finder_training import NOTHING, KnownHand, read_hands, with_head
+from recognizer.postures.person.windows import cut_window
+from recognizer.postures.photo import read_photo
 
 MAPS, SIDES, WHOLE = (CHANNELS, 20, 32, 48, 64, 80, 80, 112), (5, 3, 3, 3, 3, 3, 3), 128
 AROUND = 128  # pixels of a window's side as it is kept, so that it can be moved, scaled and turned
@@ -40,7 +40,7 @@ JITTER = (0.06, 0.1, 0.15)  # standard deviations of place [hands], size [logari
 
 
 class Net(nn.Module):
-    """The layers of `recognizer.static.hand_net.HandNet` before they are folded."""
+    """The layers of `recognizer.postures.person.hand_net.HandNet` before they are folded."""
 
     def __init__(self, classes: int) -> None:
         super().__init__()
@@ -208,7 +208,7 @@ def main() -> None:
     parser.add_argument("--epochs", type=int, default=24)
     parser.add_argument("--rate", type=float, default=3e-3)
     parser.add_argument("--kept-out", type=int, default=20, help="persons on whom it is reported on the way")
-    parser.add_argument("--out", type=Path, default=Path("recognizer/static") / FILE)
+    parser.add_argument("--out", type=Path, default=Path("recognizer/postures/person") / FILE)
     asked = parser.parse_args()
     data = windows(asked.folders)
     classes, target = np.unique(data["labels"], return_inverse=True)

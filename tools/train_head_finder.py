@@ -21,9 +21,10 @@ from typing import Any
 import numpy as np
 
 from nao_sim.people.datasets.head_ground_truth import heads_of_film
-from recognizer import closer, ranking
-from recognizer.finder_training import train, train_closer, train_ranking
-from recognizer.known_heads import KnownHead
+from recognizer.person import closer_look, ranking
+from recognizer.person.training.closer_training import save
+from recognizer.person.training.finder_training import train, train_closer, train_ranking
+from recognizer.person.training.known_heads import KnownHead
 
 
 def known_heads(folder: Path, persons: range, in_view: bool) -> list[KnownHead]:
@@ -48,7 +49,7 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="number of the first of them")
     parser.add_argument("--part", choices=("template", "closer", "ranking"), default="template", help="what to learn")
     parser.add_argument("--every", type=int, default=2, help="use one clip of so many")
-    parser.add_argument("--out", type=Path, default=Path("recognizer"), help="folder of the files of weights")
+    parser.add_argument("--out", type=Path, default=Path("recognizer/person"), help="folder of the files of weights")
     asked = parser.parse_args()
     persons = range(asked.first, asked.first + asked.persons)
     heads = [
@@ -56,7 +57,7 @@ def main() -> None:
     ]
     print(f"{len(heads)} clips with known heads")
     if asked.part == "closer":
-        closer.save(train_closer(heads), asked.out / closer.FILE)
+        save(train_closer(heads), asked.out / closer_look.FILE)
     elif asked.part == "ranking":
         train_ranking(heads).save(asked.out / ranking.FILE)
     else:

@@ -1,4 +1,4 @@
-"""Learn the network of ``recognizer/motion_net.py`` anew: ``python tools/train_motion_net.py SET``.
+"""Learn the network of ``recognizer/networks/motion_net.py`` anew: ``python tools/train_motion_net.py SET``.
 
 Needs PyTorch, the extra ``network``.
 
@@ -6,9 +6,9 @@ SET is a folder that ``nao-sim film`` made. The shipped weights were learned in 
 SET --persons 90 --takes 4 --irrelevant 6000 --seed 3``, by former versions of films and windows: ten epochs on 60
 persons, eight on all 90, both with less variation than below (no other sizes, tempi or noise), eighteen more. The
 fourth on other 90 persons, ``--seed 5``, with the films and windows of today: ``--epochs 8 --rate 1.2e-3 --from
-recognizer/motion_net.npz``, twenty minutes on two cores and nearly as much for what every clip shows, which is kept in
-SET/looks.npz. None of these persons is in the shipped database or takes part in its figures. With new weights raise
-``VERSION`` in ``recognizer/body_features.py`` and train all databases again.
+recognizer/networks/motion_net.npz``, twenty minutes on two cores and nearly as much for what every clip shows, which is
+kept in SET/looks.npz. None of these persons is in the shipped database or takes part in its figures. With new weights
+raise ``VERSION`` in ``recognizer/features/body_features.py`` and train all databases again.
 
 The network learns to name gestures and kinds of irrelevant motion. Half of the clips are mirrored; the head is found up
 to half a head elsewhere, larger or smaller than it is, contrast and tempo vary, pictures are noisy, and a few steps are
@@ -31,13 +31,15 @@ from torch import nn
 
 from nao_sim.gestures.vocabulary import vocabulary
 from recognizer import open_clip
-from recognizer.database import IRRELEVANT, Database
-from recognizer.dataset import Entry, read_manifest
-from recognizer.known import metric_classes
-from recognizer.mirror import twins
-from recognizer.motion_net import BRIGHTEST, FILE, PICTURE_UNIT, REST, Look
-from recognizer.track import track_clip
-from recognizer.window import WHOLE, Step
+from recognizer.evaluation.dataset import Entry, read_manifest
+from recognizer.features.network_features import look_of
+from recognizer.learning.database import IRRELEVANT, Database
+from recognizer.learning.mirror import twins
+from recognizer.learning.person_folds import metric_classes
+from recognizer.networks.motion_net import BRIGHTEST, FILE, PICTURE_UNIT, REST, Look
+from recognizer.person.steps import Step
+from recognizer.person.view import WHOLE
+from recognizer.tracking import track_clip
 
 BATCH, SMOOTHED = 32, 0.05
 
@@ -123,7 +125,7 @@ def look_at(entry: Entry) -> tuple[np.ndarray, ...]:
     cv2.setNumThreads(1)
     steps = track_clip(open_clip(entry.path, entry.frames)).steps
     names = Step.__dataclass_fields__
-    looks = [Look.of(Step(*(steps.stacked(name)[k] for name in names))) for k in range(len(steps))]
+    looks = [look_of(Step(*(steps.stacked(name)[k] for name in names))) for k in range(len(steps))]
     pictures = steps.stacked("picture").clip(-BRIGHTEST, BRIGHTEST).astype(np.int8)
     return pictures, np.array([k.flow for k in looks], np.float16), np.array([k.head for k in looks], np.float16)
 

@@ -9,11 +9,11 @@ from nao_sim.people.datasets.samples import sample_shot
 from nao_sim.people.errors import FilmError
 from nao_sim.resources import resource
 from recognizer import open_clip
-from recognizer.body import BodyFinder
-from recognizer.finder_training import train_ranking
-from recognizer.known_heads import KnownHead
-from recognizer.samples import Sampler
-from recognizer.track import track_clip
+from recognizer.person.body_finder import BodyFinder
+from recognizer.person.training.finder_training import train_ranking
+from recognizer.person.training.known_heads import KnownHead
+from recognizer.tracking import track_clip
+from recognizer.video.samples import Sampler
 
 
 @pytest.mark.parametrize("label", ["bye_right", "right_arm_rotation_ccw", "left_arm_pointing_left"])

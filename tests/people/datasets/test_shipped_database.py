@@ -7,8 +7,8 @@ import pytest
 
 from nao_sim.people.datasets.dataset import Job, film, plan
 from nao_sim.resources import resource
-from recognizer.database import Database
-from recognizer.dataset import build_database, read_manifest
+from recognizer.evaluation.dataset import build_database, read_manifest
+from recognizer.learning.database import Database
 
 LABELS = ("bye_right", "kowtow", "no", "irrelevant")
 
