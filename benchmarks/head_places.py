@@ -15,7 +15,7 @@ import cv2
 import joblib
 import numpy as np
 
-from nao_sim.people.heads import heads_of_film
+from nao_sim.people.datasets.head_ground_truth import heads_of_film
 from recognizer import open_clip
 from recognizer.person.body_finder import BodyFinder
 from recognizer.video.samples import Sampler

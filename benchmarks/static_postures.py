@@ -1,9 +1,9 @@
 """Measure the posture recogniser on real photos: person-disjoint, and learnt from hands that nobody filmed.
 
-Usage: python benchmarks/static_postures.py ../shared/clips/static [--database assets/databases/static.parquet]
+Usage: python benchmarks/static_postures.py [--recordings FOLDER] [--database assets/databases/static.parquet]
 
-The photos are not part of the project. Only persons with an odd number are reported in the second part: what was
-chosen by looking at photos was chosen on the even ones.
+The photos are not part of the project: see docs/recordings.md. Only persons with an odd number are reported in the
+second part: what was chosen by looking at photos was chosen on the even ones.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import csv
 from pathlib import Path
 
 import numpy as np
+from recordings import add_option, recorded
 
 from recognizer.evaluation.dataset import Entry
 from recognizer.learning.database import IRRELEVANT, Database
@@ -80,10 +81,11 @@ def network(recognizer: PhotoRecognizer, entries: list[Entry]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("photos", type=Path)
+    add_option(parser)
     parser.add_argument("--database", type=Path, default=Path("assets/databases/static.parquet"))
     arguments = parser.parse_args()
-    entries = read_entries(arguments.photos)
+    [labels] = recorded(parser, arguments.recordings, "static/labels.csv")
+    entries = read_entries(labels.parent)
     known = [entry for entry in entries if entry.label != IRRELEVANT]
     for method in ("thesis_static", "static"):
         report(f"{method}, 7 classes, unknown persons", on_unknown_persons(learn_from_photos(known, method)))

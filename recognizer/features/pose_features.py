@@ -1,4 +1,4 @@
-"""What the person's pose is while moving: where he differs from rest, and which way the edges there run.
+"""What the person's pose is while moving: where they differ from rest, and which way the edges there run.
 
 Flow says how something moves; a hand that rests at an ear and one that is held up differ in where it came to.
 """

@@ -1,4 +1,4 @@
-"""The rows a model may learn from, each with its mirrored twin, and the sums that make leaving persons out quick."""
+"""Rows by folds of persons, each with its mirrored twin, and the sums that make leaving persons out quick."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """What small convolutional networks are made of when they are asked: rows of inputs times weights, rectified.
 
-They are trained with PyTorch (``docs/train_motion_net.py``, ``docs/train_hand_net.py``); batch normalisation (Ioffe and
-Szegedy, 2015) is folded into the weights, and all is float32 and plain NumPy here.
+They are trained with PyTorch (``tools/train_motion_net.py``, ``tools/train_hand_net.py``); batch normalisation (Ioffe
+and Szegedy, 2015) is folded into the weights, and all is float32 and plain NumPy here.
 """
 
 from __future__ import annotations

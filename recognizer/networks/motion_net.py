@@ -3,7 +3,7 @@
 What every step shows (the picture, how it differs from rest, the flow, the head from near) becomes 96 numbers by
 five layers of convolutions; three more over time, of growing reach, and their mean, maximum and spread over the clip
 become 128. The network was trained once to tell gestures and 55 other motions of simulated people apart
-(``docs/train_motion_net.py``), none of whom is in the shipped database. Only these numbers are used, as features among
+(``tools/train_motion_net.py``), none of whom is in the shipped database. Only these numbers are used, as features among
 others: a gesture is added by rows of a database, not by training the network again.
 """
 

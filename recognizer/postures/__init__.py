@@ -1,4 +1,4 @@
-"""Static hand postures on photos (thesis chapter 1): skin, hand, outline, features, neighbours."""
+"""Static hand postures on photos (thesis chapter 1): the thesis's chain, and ours."""
 
 from recognizer.postures.learning.training import learn_from_model_hand, learn_from_photos
 from recognizer.postures.photo_recognizer import PhotoRecognizer, recognize_photo

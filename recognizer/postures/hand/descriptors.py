@@ -1,4 +1,4 @@
-"""Our description of a hand posture, from its outline and coverage in its own frame (see `palm`).
+"""Our description of a hand posture, from its outline and coverage in its own frame (see `hand_frame`).
 
 Four parts, all classical and each drawable: orientations of the silhouette's edges in 8x8 cells (a histogram of
 oriented gradients), the silhouette itself at 16x16, Fourier magnitudes of its outline, and low Fourier coefficients

@@ -2,7 +2,7 @@
 
 A hand of forty pixels before a bookcase cannot be divided from it by colour alone, and a weighted sum of its edges says
 too little of how fingers lie. Seven layers of convolutions and two more were trained on photos of simulated people
-(``docs/film_hands.py``, ``docs/train_hand_net.py``); none of them is one on whom figures are reported.
+(``tools/film_hands.py``, ``tools/train_hand_net.py``); none of them is one on whom figures are reported.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 The head and the raised hand are found together (`hand_finder`), so that neither a sleeve nor a skin-coloured wall
 elsewhere in the room matters. At each spot a window as large as a hand is cut out, and the hand in it is divided from
 arm, face and room by local contrast: that is what databases with postures of their own are asked with
-(`person_postures` names the others without a mask), and pictures of the stages show it.
+(`posture_shares` names the others without a mask), and pictures of the stages show it.
 """
 
 from __future__ import annotations

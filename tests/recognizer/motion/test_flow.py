@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
@@ -85,8 +86,8 @@ def test_a_start_is_used_and_kept() -> None:
 
 
 @pytest.mark.parametrize("scene", ["RubberWhale", "Dimetrodon"])
-def test_as_near_to_the_true_flow_as_the_plain_form(scene: str, real_clips: Path) -> None:
-    folder = real_clips / "flow" / scene
+def test_as_near_to_the_true_flow_as_the_plain_form(scene: str, recorded: Callable[[str], Path]) -> None:
+    folder = recorded(f"flow/{scene}")
     first, second = (cv2.imread(str(folder / f"frame{i}.png"), cv2.IMREAD_GRAYSCALE)[:200, :200] for i in (10, 11))
     raw = np.fromfile(folder / "flow10.flo", np.float32)
     width, height = raw[1:3].view(np.int32)

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
@@ -45,8 +46,5 @@ def recognizer(database: Database) -> PhotoRecognizer:
 
 
 @pytest.fixture(scope="session")
-def real_photos() -> Path:
-    folder = Path(__file__).resolve().parents[3].parent / "shared" / "clips" / "static"
-    if not folder.is_dir():
-        pytest.skip("the real photos are not beside this checkout (../shared/clips/static)")
-    return folder
+def real_photos(recorded: Callable[[str], Path]) -> Path:
+    return recorded("static/labels.csv").parent

@@ -75,9 +75,9 @@ def test_a_place_is_the_hand_and_none_is_the_face(skin):
 def test_hands_of_filmed_persons_are_named_and_seldom_wrongly():
     """Two dozen persons in cluttered rooms, of a seed that nothing was learnt from; figures are in docs/static.md."""
     recognizer = PhotoRecognizer.load(resource("assets", "databases", "static.parquet"))
-    from nao_sim.people import photos
-    from nao_sim.people.dataset import plan
-    from nao_sim.people.stage import Stage
+    from nao_sim.people.datasets.dataset import plan
+    from nao_sim.people.filming import photos
+    from nao_sim.people.filming.stage import Stage
 
     found = []
     with Stage(photos.DETAIL) as stage:
@@ -229,10 +229,10 @@ def test_explain_shows_where_the_hand_of_a_person_is_and_what_is_read_there(monk
 
 def test_who_shows_nothing_is_not_named(recognizer):
     """Persons with their arms at rest, of a seed that nothing was learnt from."""
-    from nao_sim.people import photos
-    from nao_sim.people.dataset import plan
-    from nao_sim.people.motions import pose
-    from nao_sim.people.stage import Stage
+    from nao_sim.people.datasets.dataset import plan
+    from nao_sim.people.filming import photos
+    from nao_sim.people.filming.stage import Stage
+    from nao_sim.people.performance.motions import pose
 
     named = []
     with Stage(photos.DETAIL) as stage:

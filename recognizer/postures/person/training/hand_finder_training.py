@@ -63,7 +63,7 @@ class Seen:
 
 
 def read_hands(folder: Path) -> list[KnownHand]:
-    """Return the photos of a folder with a ``hands.csv`` as ``docs/film_hands.py`` writes it."""
+    """Return the photos of a folder with a ``hands.csv`` as ``tools/film_hands.py`` writes it."""
     with (folder / "hands.csv").open() as file:
         return [
             KnownHand(
