@@ -15,6 +15,7 @@ from recognizer.learning.database import Database
 from recognizer.learning.decision import Decision
 from recognizer.methods import NOBODY, method_of
 from recognizer.motion.amplitude import amplitude
+from recognizer.motion.crossing import TRAVEL, thing_crosses
 from recognizer.recognition import Evidence, Recognition, Watched
 from recognizer.segmentation import Segmenter, only_gesture
 from recognizer.tracking import MIN_SAMPLES, Track
@@ -26,6 +27,7 @@ from recognizer.video.scene import STILL
 Progress = Callable[[int, int | None], None]
 
 RESTING = 2.0  # s of rest beside the only movement of a clip that make it worth a look of its own
+THING = "what crosses the picture keeps its shape as a thing does; nobody walks"
 NO_MOVEMENT = "no movement in this clip lasts long enough to be a gesture"
 
 
@@ -267,13 +269,17 @@ class RecognizerStream:
             decision = Decision.without_comparison(NOBODY)
         else:
             decision = self.recognizer.decide(self.recognizer.method.features(track), allowed)
-        if track.scene.still:
-            decision = decision.rejected_for(STILL)
         samples = track.samples
         height, width = samples[0].grey.shape
+        path = amplitude(list(track.regions), (width, height))
+        if track.scene.still:
+            decision = decision.rejected_for(STILL)
+        far = self.recognizer.method.needs_body and not decision.rejected and path.extent > TRAVEL / 2
+        if far and thing_crosses([sample.image for sample in samples]):
+            decision = decision.rejected_for(THING)
         return Recognition.of(
             decision,
-            amplitude=amplitude(list(track.regions), (width, height)),
+            amplitude=path,
             start=samples[0].time,
             end=samples[-1].time,
             watched=_watched(track),
