@@ -39,7 +39,7 @@ def main() -> None:
     print("\n".join(found.faults) or "nothing wrong with it")
     if found.measures is not None:
         worst = found.measures.tracking_deg
-        print(f"{found.measures.duration_s:.1f} s; {worst.where} followed worst, {worst.value:.1f}° RMS from its targets")
+        print(f"{found.measures.duration_s:.1f} s; {worst.where} follows worst, {worst.value:.1f}° RMS")
         print("ends standing" if found.measures.ends_standing else "ends otherwise than standing")
 
 
