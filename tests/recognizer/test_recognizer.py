@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from nao_sim.gestures.vocabulary import vocabulary
-from nao_sim.resources import resource
 from recognizer import Clip, ClipError, Recognizer, open_clip
 from recognizer.explain import explain
 from recognizer.tracking import track_clip
@@ -19,8 +18,8 @@ ROBUST = ("bye_right", "bye_two_hands", "kowtow", "right_arm_up", "left_arm_poin
 
 
 @pytest.fixture(scope="module")
-def recognizer() -> Recognizer:
-    return Recognizer.load(resource("assets", "databases", "dynamic.parquet"))
+def recognizer(shipped: Recognizer) -> Recognizer:
+    return shipped
 
 
 def frames_of(folder: Path, name: str) -> tuple[np.ndarray, float]:
