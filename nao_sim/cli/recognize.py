@@ -34,7 +34,9 @@ def recognize(
     recognizer = Recognizer.load(database or resource("assets", "databases", "dynamic.parquet"))
     with stages(hidden=as_json) as show:
         update = functools.partial(show, "reading frames")
-        found = recognizer.recognize_each(clip, labels, update) if every else [recognizer.recognize(clip, labels, update)]
+        found = (
+            recognizer.recognize_each(clip, labels, update) if every else [recognizer.recognize(clip, labels, update)]
+        )
         answers = []
         for number, answer in enumerate(found, 1):
             if explain is not None:

@@ -106,12 +106,11 @@ class BodyFinder:
         Columns are as in NAMES, then the same relative to the highest of the clip: what counts is to be
         more like a person than the rest of the picture.
         """
-        assert self._last is not None
+        bodies = [body for _, found, _ in self._found for body in found]
+        if self._last is None or not bodies:
+            return [], np.zeros((0, 2 * len(NAMES)))
         height, width = self._last.grey.shape
         scale = self._last.small.shape[1] / width
-        bodies = [body for _, found, _ in self._found for body in found]
-        if not bodies:
-            return [], np.zeros((0, 2 * len(NAMES)))
         numbers = self.searched()
         places = np.array([(b.x, b.y, b.head, b.score) for b in bodies])
         again = np.zeros(len(bodies))

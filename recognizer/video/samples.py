@@ -70,7 +70,10 @@ class _Grid:
         on = number >= round(self._taken * self._frames) if steady else time >= self._due - early
         if on:
             self._taken += 1
-            self.begin(self._taken * self._frames / self._fps if steady and self._fps else self._after(time))
+            even = (
+                min(self._taken * self._frames / self._fps, time + self._period) if steady and self._fps else math.inf
+            )
+            self.begin(even if steady else self._after(time))
         return on
 
     def pass_by(self, number: int, time: float, steady: bool) -> None:
