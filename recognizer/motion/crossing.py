@@ -65,7 +65,7 @@ def _outline(mask: np.ndarray) -> tuple[np.ndarray, float] | None:
     if area < LEAST_AREA * mask.size or h < ROWS or x <= 1 or x + w >= width - 1:
         return None
     piece = labels[y : y + h, x : x + w] == largest
-    widths = [_extent(rows.any(axis=0)) / h for rows in np.array_split(piece, ROWS)]
+    widths = [_extent(np.asarray(rows.any(axis=0))) / h for rows in np.array_split(piece, ROWS)]
     return np.array(widths), (x + w / 2) / width
 
 
