@@ -10,8 +10,9 @@ import numpy as np
 
 from nao_sim.errors import did_you_mean
 from nao_sim.gestures.errors import GestureFileError
-from nao_sim.motion.limits import HANDS, TOLERANCE
+from nao_sim.motion.limits import HANDS
 from nao_sim.robot.joints import BODY, joint_table
+from nao_sim.robot.tolerance import on_limits, tell_apart
 
 
 def number(value: object, path: Path, where: str) -> float:
@@ -39,18 +40,28 @@ def increasing(times: Sequence[float], path: Path) -> None:
             )
 
 
-def inside_range(angles_rad: Mapping[str, float], time_s: float, path: Path, limits: str = "thesis") -> None:
-    """Refuse an angle outside its joint's range, naming the joint, the time and the bound."""
+def inside_range(
+    angles_rad: Mapping[str, float], time_s: float, path: Path, limits: str = "thesis"
+) -> dict[str, float]:
+    """Return angles inside their ranges, those past them by no more than the joints' softness put on the limit.
+
+    Raises:
+        GestureFileError: an angle is further out; the message names the joint, the time and the bound.
+    """
     table = joint_table()
     ranges = table.range_rad(limits)
+    inside = {}
     for name, value in angles_rad.items():
         low, high = ranges[table.index(name)]
-        if low - TOLERANCE <= value <= high + TOLERANCE:
+        inside[name] = float(on_limits(value, low, high))
+        if low <= inside[name] <= high:
             continue
-        shown = (value, low, high) if name in HANDS else tuple(np.rad2deg([value, low, high]))
+        scale = 1.0 if name in HANDS else np.rad2deg(1.0)
+        shown = tell_apart(value * scale, low * scale, high * scale)
         unit = "(0 closed, 1 open)" if name in HANDS else "deg"
         raise GestureFileError(
             path,
-            f"{name} at {time_s:g} s is {shown[0]:.2f}, outside its range {shown[1]:.2f} .. {shown[2]:.2f} {unit}; "
+            f"{name} at {time_s:g} s is {shown[0]}, outside its range {shown[1]} .. {shown[2]} {unit}; "
             "keep inside it or pass --fit",
         )
+    return inside

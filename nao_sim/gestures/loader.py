@@ -129,7 +129,7 @@ def _frame(row: dict[str, Any], index: int, path: Path, fit: bool) -> KeyFrame:
         asked = checks.number(value, path, f"{name} in {where}")
         angles[joint] = asked if joint in HANDS else float(np.deg2rad(asked))
     if not fit:
-        checks.inside_range(angles, time_s, path)
+        angles = checks.inside_range(angles, time_s, path)
     torso = _table(row.get("torso", {}), path, f"torso of {where}")
     _only(torso, TORSO_KEYS, path, f"torso of {where}")
     asked_torso = {key: checks.number(value, path, f"torso {key} in {where}") for key, value in torso.items()}

@@ -11,9 +11,10 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from nao_sim.motion.errors import RangeExceeded, SpeedExceeded
 from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
 from nao_sim.robot.joints import ACTUATED, joint_table
+from nao_sim.robot.tolerance import SOFTNESS_RAD
 
 HANDS = ("LHand", "RHand")
-# A trajectory made to be just inside a bound must not fail its own check on rounding.
+# A trajectory made to be just as fast as its motors must not fail its own check on rounding.
 TOLERANCE = 1e-6
 # Slowing down and speeding up again is spread over this many control periods, so that it is not a jolt.
 _BLEND_PERIODS = 15
@@ -74,7 +75,7 @@ def check(trajectory: Trajectory, limits: str = "thesis") -> None:
     """
     bound = bounds(limits)
     excess = np.maximum(bound.range_rad[:, 0] - trajectory.targets, trajectory.targets - bound.range_rad[:, 1])
-    if excess.max() > TOLERANCE:
+    if excess.max() > SOFTNESS_RAD:
         row, column = np.unravel_index(np.argmax(excess), excess.shape)
         unit, scale = unit_of(trajectory.names[column])
         low, high = bound.range_rad[column] * scale
@@ -104,7 +105,7 @@ def clipped(trajectory: Trajectory, limits: str = "thesis") -> tuple[Trajectory,
     for column, name in enumerate(trajectory.names):
         excess = np.abs(trajectory.targets[:, column] - inside[:, column])
         row = int(np.argmax(excess))
-        if excess[row] > TOLERANCE:
+        if excess[row] > SOFTNESS_RAD:
             _, scale = unit_of(name)
             asked, got = trajectory.targets[row, column] * scale, inside[row, column] * scale
             changes.append(Change(name, float(trajectory.times[row]), float(asked), float(got), "angle"))

@@ -14,6 +14,7 @@ from nao_sim.motion.self_distance import nearest_self_distance
 from nao_sim.motion.support import com_margins
 from nao_sim.motion.trajectory import Trajectory
 from nao_sim.robot import ACTUATED, joint_table
+from nao_sim.robot.tolerance import on_limits
 
 _ANGLES = [index for index, name in enumerate(ACTUATED) if name not in HANDS]
 
@@ -104,13 +105,13 @@ def measure(model: mujoco.MjModel, trajectory: Trajectory, log: MotionLog, limit
     bound = bounds(limits)
     low, high = bound.range_rad.T
     stall = np.array([joint.stall_torque for joint in joint_table().select(ACTUATED).joints])
-    margin = np.minimum(trajectory.targets - low, high - trajectory.targets)[:, _ANGLES]
+    targets = on_limits(trajectory.targets, low, high)
+    margin = np.minimum(targets - low, high - targets)[:, _ANGLES]
     errors = (log.angles - log.targets)[:, _ANGLES]
     rms = np.sqrt((errors**2).mean(axis=0))
     distance, pair, when = nearest_self_distance(model, log)
     com = com_margins(model, log)
     worst_com = int(np.argmin(com))
-    targets = trajectory.targets
     return Measures(
         duration_s=trajectory.duration,
         range_margin_deg=_extreme(np.rad2deg(-margin), trajectory.times, _ANGLES, -1.0),

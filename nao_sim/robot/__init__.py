@@ -8,11 +8,12 @@ from nao_sim.robot.errors import (
     UnknownNameError,
     UnstableError,
 )
-from nao_sim.robot.joints import ACTUATED, BODY, CHAINS, Joint, JointTable, joint_table, resolve
+from nao_sim.robot.joints import ACTUATED, BODY, CHAINS, LIMITS, Joint, JointTable, joint_table, resolve
 from nao_sim.robot.model import model_spec
 from nao_sim.robot.nao import CONTROL_PERIOD_S, Nao
 from nao_sim.robot.postures import Posture, posture, postures
 from nao_sim.robot.sensors import SensorReadings
+from nao_sim.robot.tolerance import SOFTNESS_RAD, on_limits, sets_allowing, tell_apart
 from nao_sim.robot.video import Video
 
 __all__ = [
@@ -20,6 +21,8 @@ __all__ = [
     "BODY",
     "CHAINS",
     "CONTROL_PERIOD_S",
+    "LIMITS",
+    "SOFTNESS_RAD",
     "AngleRangeError",
     "Joint",
     "JointTable",
@@ -34,7 +37,10 @@ __all__ = [
     "Video",
     "joint_table",
     "model_spec",
+    "on_limits",
     "posture",
     "postures",
     "resolve",
+    "sets_allowing",
+    "tell_apart",
 ]

@@ -55,7 +55,7 @@ def gesture_of_samples(
     for time_s, row in zip(times, rows, strict=True):
         angles = {name: float(value) for name, value in zip(names, row, strict=True) if np.isfinite(value)}
         if not fit:
-            checks.inside_range(angles, time_s, path)
+            angles = checks.inside_range(angles, time_s, path)
         frames.append(KeyFrame(time_s, angles))
     return Gesture(path.stem, None, "own", "linear", "none", path.stem, f"{path.stem}_mirrored", tuple(frames), "cubic")
 
