@@ -10,6 +10,15 @@ from nao_sim.motion.trajectory import Trajectory
 
 TORSO_KEYS = ("pitch", "roll", "height")
 
+LONGEST_S = 300.0
+"""Seconds that a gesture may last unless it says otherwise: longer is a mistake in the unit of time more often than not."""
+
+MOST_REPETITIONS = 100
+"""Of a cycle."""
+
+LATEST_FOLLOW_S = 1.0
+"""Greatest follow-through, seconds."""
+
 
 @dataclass(frozen=True)
 class KeyFrame:
@@ -67,6 +76,8 @@ class Gesture:
         cycle: the repeated part, or None.
         amplitude_joints: the joints that amplitude scales; empty: all but the hands.
         walk: the displacement of a walking gesture, or None.
+        longest_s: seconds it may last as written, repetitions included.
+        notes: for people: what reading its file took for granted or left out.
     """
 
     name: str
@@ -82,6 +93,8 @@ class Gesture:
     cycle: Cycle | None = None
     amplitude_joints: tuple[str, ...] = ()
     walk: Walk | None = None
+    longest_s: float = LONGEST_S
+    notes: tuple[str, ...] = ()
 
     @property
     def joints(self) -> tuple[str, ...]:

@@ -51,10 +51,11 @@ class Crowd:
     Args:
         trials: one robot each.
         threads: of the batch; 0 for all cores.
+        limits: the range set that the robots keep.
     """
 
-    def __init__(self, trials: Trials, threads: int = 0) -> None:
-        with Nao(fingers=False, shells=False) as nao:
+    def __init__(self, trials: Trials, threads: int = 0, limits: str = "thesis") -> None:
+        with Nao(limits, fingers=False, shells=False) as nao:
             self.model, start = nao.model, nao.data.qpos.copy()
         self.trials = trials
         self.batch = Batch(self.model, len(trials), threads)
@@ -63,8 +64,8 @@ class Crowd:
         self._set_models()
         self._place(start)
         table = joint_table().select(ACTUATED)
-        self._low, self._high = table.range_rad().T
-        self._layer = CommandLayer("thesis", CONTROL_PERIOD)
+        self._low, self._high = table.range_rad(limits).T
+        self._layer = CommandLayer(limits, CONTROL_PERIOD)
         self._setpoint = np.tile(start[self._qpos], (len(trials), 1))
         self._travel = np.zeros_like(self._setpoint)
         self._felt = self._setpoint.copy()
@@ -164,6 +165,7 @@ def play_all(
     gains: Gains | None = None,
     threads: int = 0,
     progress: Callable[[int, int], None] | None = None,
+    limits: str = "thesis",
 ) -> Outcome:
     """Play a motion in every trial.
 
@@ -173,15 +175,16 @@ def play_all(
         balance, gains: of a trajectory's feedback.
         threads: of the batch; 0 for all cores. The outcome does not depend on it.
         progress: called with (periods done, periods in all).
+        limits: the range set that the robots keep.
     """
     player = player_of(motion, len(trials), balance, gains)
-    return _play(Crowd(trials, threads), player, progress, None)
+    return _play(Crowd(trials, threads, limits), player, progress, None)
 
 
-def replay(motion: Motion, trials: Trials) -> MotionLog:
+def replay(motion: Motion, trials: Trials, limits: str = "thesis") -> MotionLog:
     """Play the first trial alone and return its log."""
     rows: list[dict[str, Any]] = []
-    outcome = _play(Crowd(trials, 1), player_of(motion, 1), None, rows)
+    outcome = _play(Crowd(trials, 1, limits), player_of(motion, 1), None, rows)
     times = np.asarray(CONTROL_PERIOD * np.arange(len(rows)), dtype=np.float64)
     columns: dict[str, Any] = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     fell_at = None if outcome.up[0] else float(outcome.fell_at[0])

@@ -11,7 +11,7 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from nao_sim.motion.errors import RangeExceeded, SpeedExceeded
 from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
 from nao_sim.robot.joints import ACTUATED, joint_table
-from nao_sim.robot.tolerance import SOFTNESS_RAD
+from nao_sim.robot.tolerance import SOFTNESS_RAD, sets_allowing, tell_apart
 
 HANDS = ("LHand", "RHand")
 # A trajectory made to be just as fast as its motors must not fail its own check on rounding.
@@ -38,7 +38,14 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Change:
-    """One thing that fitting changed: a joint clipped to its range, or time added to a stretch of the motion."""
+    """One thing that fitting changed: a joint clipped to its range, or time added to a stretch of the motion.
+
+    Attributes:
+        joint, time_s: whose and when it is worst, seconds.
+        asked, bound: what the motion asked for and what the joint does: degrees, degrees a second, degrees a second
+            squared (hands: fractions).
+        what: ``"angle"``, ``"speed"`` or ``"acceleration"``; the last two got more time.
+    """
 
     joint: str
     time_s: float
@@ -46,8 +53,24 @@ class Change:
     bound: float
     what: str
 
+    @property
+    def takes_time(self) -> bool:
+        """Whether the motion takes more time for it; otherwise it goes less far."""
+        return self.what != "angle"
+
+    @property
+    def unit(self) -> str:
+        """The unit of ``asked`` and ``bound``."""
+        unit, _ = unit_of(self.joint)
+        if not self.takes_time:
+            return unit
+        unit = "1" if unit == "fraction" else unit
+        return f"{unit}/s" if self.what == "speed" else f"{unit}/s²"
+
     def __str__(self) -> str:
-        return f"{self.joint} at {self.time_s:.2f} s: {self.what} {self.asked:.2f} → {self.bound:.2f}"
+        asked, bound, _ = tell_apart(self.asked, self.bound, self.bound)
+        how = f"{self.what} {asked} → {bound} {self.unit}" + (", takes more time" if self.takes_time else "")
+        return f"{self.joint} at {self.time_s:.2f} s: {how}"
 
 
 def bounds(limits: str = "thesis") -> Bounds:
@@ -85,6 +108,12 @@ def check(trajectory: Trajectory, limits: str = "thesis") -> None:
             float(trajectory.targets[row, column] * scale),
             (float(low), float(high)),
             unit,
+            limits,
+            tuple(
+                name
+                for name in sets_allowing(trajectory.names[column], float(trajectory.targets[row, column]))
+                if name != limits
+            ),
         )
     if len(trajectory.times) < 2:
         return
@@ -129,13 +158,23 @@ def stretched(trajectory: Trajectory, limits: str = "thesis", share: float = 0.9
     if not changes:
         return even, []
     for _ in range(_MOST_PASSES):
-        ratio = even.speeds() / (share * bound.speed)
-        # Time stretched by s divides speeds by s and accelerations by its square.
-        ratio = np.maximum(ratio, np.sqrt(_accelerations(even) / bound.acceleration))
+        ratio = asked_over_able(even, share)
         if ratio.max(initial=0.0) <= 1.0 + TOLERANCE:
             break
         even = _dilated(even, ratio.max(axis=1))
     return even, changes
+
+
+def asked_over_able(even: Trajectory, share: float = 0.98) -> NDArray[np.float64]:
+    """Return by how much each interval would have to be longer for its motors, shape (n - 1, 25); at most 1: it is well.
+
+    Args:
+        even: a motion sampled at the control period.
+        share: of the motors' nominal speed that may be used.
+    """
+    bound = bounds()
+    # Time stretched by s divides speeds by s and accelerations by its square.
+    return np.maximum(even.speeds() / (share * bound.speed), np.sqrt(_accelerations(even) / bound.acceleration))
 
 
 def _accelerations(even: Trajectory) -> NDArray[np.float64]:
