@@ -38,6 +38,10 @@ class AngleRangeError(RobotError, ValueError):
         self.high_rad = high_rad
 
 
+class SceneError(RobotError, ValueError):
+    """A scene in which the robot cannot be found, or cannot begin."""
+
+
 class TargetError(RobotError, ValueError):
     """Targets that are not finite numbers, or not as many as there are joints."""
 

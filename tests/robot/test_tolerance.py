@@ -86,3 +86,10 @@ def test_a_robot_holds_what_it_measures(posture: str, standing: Nao) -> None:
     for _ in range(40):
         standing.step(3)
         standing.set_angles("JointActuators", standing.angles.astype(np.float32))
+
+
+def test_sets_that_differ_stay_different() -> None:
+    """The tolerance never makes one documented range pass for another."""
+    thesis, v5 = joint_table().range_rad("thesis"), joint_table().range_rad("v5")
+    apart = np.abs(thesis - v5)
+    assert apart[apart > 0].min() > SOFTNESS_RAD
