@@ -40,7 +40,7 @@ def act(
 ) -> Performance:
     """Perform a gesture from where the robot's set-points are now.
 
-    A robot that does not stand gets up first (see :func:`nao_sim.motion.getting_up.get_up`), and the log has both. If it
+    A robot that does not stand gets up first (:func:`nao_sim.motion.getting_up.get_up`), and the log has both. If it
     cannot, the gesture is not begun: the log is that of the attempts and ``log.fallen`` is true.
 
     Args:

@@ -36,8 +36,9 @@ def increasing(times: Sequence[float], path: Path, lines: Sequence[int] | None =
         if time < 0:
             raise GestureFileError(path, f"{where} is at {time:g} s; times start at 0")
         if index and time <= times[index - 1]:
-            now, before, _ = tell_apart(time, times[index - 1], times[index - 1], least=0)
-            raise GestureFileError(path, f"{where} is at {now} s, not after {before} s; put them in order")
+            raise GestureFileError(
+                path, f"{where} is at {time:.9g} s, not after {times[index - 1]:.9g} s; put them in order"
+            )
 
 
 def not_too_long(end_s: float, path: Path, longest_s: float, start_s: float = 0.0) -> None:

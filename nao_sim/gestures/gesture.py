@@ -11,7 +11,7 @@ from nao_sim.motion.trajectory import Trajectory
 TORSO_KEYS = ("pitch", "roll", "height")
 
 LONGEST_S = 300.0
-"""Seconds that a gesture may last unless it says otherwise: longer is a mistake in the unit of time more often than not."""
+"""Seconds that a gesture may last unless it says otherwise: what lasts longer is mostly in another unit of time."""
 
 MOST_REPETITIONS = 100
 """Of a cycle."""

@@ -13,8 +13,8 @@ from nao_sim.robot.joints import ACTUATED
 
 # A joint so near its first key frame is there.
 _SAME_RAD = 1e-3
-# Of a movement of d in T: greatest speed at most 3 d / T (a cubic that runs on through its end; 1.875 from rest to rest),
-# greatest acceleration about 6 d / T².
+# Of a movement of d in T: greatest speed at most 3 d / T (a cubic that runs on through its end), greatest acceleration
+# about 6 d / T².
 _PEAK_SPEED, _PEAK_ACCELERATION = 3.0, 6.0
 # Where the file leaves too little time it gets enough for balance, too.
 _COMFORT_S, _COMFORT = 1.0, 1.5

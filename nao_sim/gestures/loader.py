@@ -32,7 +32,16 @@ import numpy as np
 from nao_sim.errors import did_you_mean
 from nao_sim.gestures import checks
 from nao_sim.gestures.errors import GestureFileError
-from nao_sim.gestures.gesture import LATEST_FOLLOW_S, LONGEST_S, MOST_REPETITIONS, TORSO_KEYS, Cycle, Gesture, KeyFrame, Walk
+from nao_sim.gestures.gesture import (
+    LATEST_FOLLOW_S,
+    LONGEST_S,
+    MOST_REPETITIONS,
+    TORSO_KEYS,
+    Cycle,
+    Gesture,
+    KeyFrame,
+    Walk,
+)
 from nao_sim.gestures.vocabulary import CLASSES, FAMILIES, KINDS, vocabulary
 from nao_sim.motion.easing import EASINGS
 from nao_sim.motion.limits import HANDS
@@ -222,7 +231,9 @@ def _cycle(value: object, frames: tuple[KeyFrame, ...], path: Path) -> Cycle | N
             raise GestureFileError(path, f"cycle: {joint} must be the same at '{table['first']}' and '{table['last']}'")
     repetitions = table.get("repetitions", 1)
     if not isinstance(repetitions, int) or isinstance(repetitions, bool) or not 1 <= repetitions <= MOST_REPETITIONS:
-        raise GestureFileError(path, f"cycle repetitions is {repetitions!r}; write 1 to {MOST_REPETITIONS}")
+        raise GestureFileError(
+            path, f"cycle repetitions is {repetitions!r}; write 1 or more, at most {MOST_REPETITIONS}"
+        )
     return Cycle(table["first"], table["last"], repetitions)
 
 

@@ -37,7 +37,7 @@ class Curve:
             return Curve(self.times, self.values)
         times, values = [self.times[:1]], [self.values[:1]]
         for index in range(len(self.times) - 1):
-            at = np.linspace(*self.times[index : index + 2], self._pieces(index, period) + 1)[1:]
+            at = np.linspace(self.times[index], self.times[index + 1], self._pieces(index, period) + 1)[1:]
             times.append(at)
             values.append(np.append(self._bezier(index, at[:-1]), self.values[index + 1]))
         return Curve(np.concatenate(times), np.concatenate(values))
@@ -71,7 +71,7 @@ def union_of_times(curves: Mapping[str, Curve]) -> Array:
 
 
 def rows_of(curves: Mapping[str, Curve], times: Array, period: float = CONTROL_PERIOD) -> Array:
-    """Return the values of all curves at times, shape (n, joints); NaN before a joint's first key and after its last."""
+    """Return the values of all curves at times, shape (n, joints); NaN outside a joint's own keys."""
     rows = np.full((len(times), len(curves)), np.nan)
     for column, curve in enumerate(curves.values()):
         line = curve.straight(period)

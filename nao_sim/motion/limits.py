@@ -166,7 +166,7 @@ def stretched(trajectory: Trajectory, limits: str = "thesis", share: float = 0.9
 
 
 def asked_over_able(even: Trajectory, share: float = 0.98) -> NDArray[np.float64]:
-    """Return by how much each interval would have to be longer for its motors, shape (n - 1, 25); at most 1: it is well.
+    """Return by how much each interval would have to be longer for its motors, shape (n - 1, 25); up to 1: not at all.
 
     Args:
         even: a motion sampled at the control period.

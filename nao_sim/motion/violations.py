@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 
 # A motor may be asked for its nominal speed but for rounding: files are printed with few digits.
 _SPEED_SLACK = 1e-4
+# A change that is over so soon and is so many times what the motor does in a control period is a step.
+_STEP_S, _STEP_TIMES = 0.06, 3.0
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,7 @@ class Violation:
         unit: ``deg``, ``fraction`` (hands), ``deg/s`` or ``1/s``.
         limits: the range set that it was held to.
         allowed_by: other range sets that allow it.
+        step: of a speed that is over almost at once, by how much the joint is to jump, deg or fraction; otherwise 0.
     """
 
     joint: str
@@ -43,19 +46,26 @@ class Violation:
     unit: str
     limits: str
     allowed_by: tuple[str, ...] = ()
+    step: float = 0.0
 
     def __str__(self) -> str:
         """One line: joint, time, value, bounds, range set."""
         value, low, high = tell_apart(self.value, *self.bounds, least=1 if "/" in self.unit else 2)
         long = self.to_s - self.from_s > CONTROL_PERIOD
         when = f"{self.time_s:.2f} s" + (f" ({self.from_s:.2f} to {self.to_s:.2f} s)" if long else "")
+        if self.step:
+            unit = "deg" if self.unit == "deg/s" else "of its opening"
+            return (
+                f"{self.joint} at {when} steps by {self.step:.3g} {unit}: asked for {value} {self.unit}, its motor does "
+                f"{high} {self.unit} and takes {self.step / self.bounds[1]:.2g} s"
+            )
         if self.unit.endswith("/s"):
-            return f"{self.joint} at {when}: {value} {self.unit}, its motor does {high} {self.unit}"
+            return f"{self.joint} at {when} is asked for {value} {self.unit}, its motor does {high} {self.unit}"
         beyond = abs(self.value - float(np.clip(self.value, *self.bounds)))
         other = f"; '{self.allowed_by[0]}' allows it" if self.allowed_by else ""
         return (
-            f"{self.joint} at {when}: {value} {self.unit}, {beyond:.2g} beyond its '{self.limits}' range "
-            f"{low} .. {high}{other}"
+            f"{self.joint} at {when} is {value}, {beyond:.2g} beyond its '{self.limits}' range "
+            f"{low} .. {high} {self.unit}{other}"
         )
 
 
@@ -72,10 +82,22 @@ def violations(motion: Trajectory | Mapping[str, Curve], limits: str = "thesis")
     Raises:
         UnknownNameError: no such range set.
     """
+    return angle_violations(motion, limits) + speed_violations(motion, limits)
+
+
+def angle_violations(motion: Trajectory | Mapping[str, Curve], limits: str = "thesis") -> list[Violation]:
+    """Return where angles are out of range; see :func:`violations`."""
+    return [entry for name, curve in _straight(motion).items() for entry in _angles(name, curve, limits)]
+
+
+def speed_violations(motion: Trajectory | Mapping[str, Curve], limits: str = "thesis") -> list[Violation]:
+    """Return where motors would have to be too fast; see :func:`violations`."""
+    return [entry for name, curve in _straight(motion).items() for entry in _speeds(name, curve, limits)]
+
+
+def _straight(motion: Trajectory | Mapping[str, Curve]) -> dict[str, Curve]:
     curves = curves_of(motion) if isinstance(motion, Trajectory) else motion
-    straight = {name: curve.straight() for name, curve in curves.items()}
-    found = [entry for name, curve in straight.items() for entry in _angles(name, curve, limits)]
-    return found + [entry for name, curve in straight.items() for entry in _speeds(name, curve, limits)]
+    return {name: curve.straight() for name, curve in curves.items()}
 
 
 def _angles(name: str, curve: Curve, limits: str) -> list[Violation]:
@@ -87,9 +109,9 @@ def _angles(name: str, curve: Curve, limits: str) -> list[Violation]:
         row = first + int(np.argmax(excess[first : last + 1]))
         value = float(curve.values[row])
         others = tuple(other for other in sets_allowing(name, value) if other != limits)
-        place = (float(curve.times[index]) for index in (row, first, last))
+        at, begin, end = (float(curve.times[index]) for index in (row, first, last))
         bounds = float(low * scale), float(high * scale)
-        found.append(Violation(name, *place, value * scale, bounds, unit, limits, others))
+        found.append(Violation(name, at, begin, end, value * scale, bounds, unit, limits, others))
     return found
 
 
@@ -102,10 +124,13 @@ def _speeds(name: str, curve: Curve, limits: str) -> list[Violation]:
     found = []
     for first, last in _stretches(speeds > most * (1 + _SPEED_SLACK)):
         row = first + int(np.argmax(speeds[first : last + 1]))
-        place = (float(times[index]) for index in (row, first, last))
-        found.append(
-            Violation(name, *place, float(speeds[row] * scale), (0.0, float(most * scale)), unit, limits)
-        )
+        at, begin, end = (float(times[index]) for index in (row, first, last))
+        bounds = 0.0, float(most * scale)
+        inside = (curve.times >= begin - 1e-9) & (curve.times <= end + CONTROL_PERIOD + 1e-9)
+        ends = np.interp([begin, end + CONTROL_PERIOD], curve.times, curve.values)
+        jump = float(np.ptp(np.concatenate([curve.values[inside], ends])) * scale)
+        step = jump if end - begin <= _STEP_S and jump > _STEP_TIMES * bounds[1] * CONTROL_PERIOD else 0.0
+        found.append(Violation(name, at, begin, end, float(speeds[row] * scale), bounds, unit, limits, (), step))
     return found
 
 

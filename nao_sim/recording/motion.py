@@ -31,7 +31,9 @@ def read(path: Path, said: Said) -> MotionFile:
     kind = "angle" if said.measured else "target"
     samples = _samples(path, {f"/joints/{name}/{kind}": name for name in ACTUATED})
     if not samples:
-        raise GestureFileError(path, f"has no joints/<joint>/{kind} on the time line '{TIMELINE}'; is it a recording of ours?")
+        raise GestureFileError(
+            path, f"has no joints/<joint>/{kind} on the time line '{TIMELINE}'; is it a recording of ours?"
+        )
     notes, start = [], 0.0
     first = next(iter(samples.values()))[0]
     if len(first) > 1 and first[1] - first[0] > _GAP_S:

@@ -62,7 +62,6 @@ __all__ = [
     "said",
     "save_curves",
     "save_trajectory",
-    "written_suffixes",
 ]
 
 
@@ -127,11 +126,6 @@ def save_curves(curves: Mapping[str, Curve], path: str | Path) -> list[str]:
         raise GestureFileError(path, f"{why} '{path.suffix}'; known: {', '.join(WRITERS)}")
     notes: list[str] = importlib.import_module(module).write(curves, path)
     return notes
-
-
-def written_suffixes() -> str:
-    """Return the suffixes that are written, for messages."""
-    return ", ".join(WRITERS)
 
 
 def holds_a_motion(path: Path) -> bool:

@@ -1,9 +1,10 @@
 """Tables of joint angles as CSV: a time column and a column a joint.
 
-The first line names the columns: a time (``time_s``, ``time_ms``, ``timestamp [us]``, ``frames`` …) and NAOqi joints with
-their unit (``HeadYaw_rad``, ``HeadYaw (deg)``); hands are fractions open, or ``RHand_percent``. A second line may hold
-units instead. Columns are parted by commas, semicolons, tabs or blanks; where no comma parts them, one may stand for the
-decimal point. An empty cell gives a joint no key at that time. Lines that begin with ``#`` are comments.
+The first line names the columns: a time (``time_s``, ``time_ms``, ``timestamp [us]``, ``frames`` …) and NAOqi joints
+with their unit (``HeadYaw_rad``, ``HeadYaw (deg)``); hands are fractions open, or ``RHand_percent``. A second line
+may hold units instead. Columns are parted by commas, semicolons, tabs or blanks; where no comma parts them, one may
+stand for the decimal point. An empty cell gives a joint no key at that time. Lines that begin with ``#`` are
+comments.
 """
 
 from __future__ import annotations
@@ -45,8 +46,8 @@ def read(path: Path, said: Said) -> MotionFile:
     if not lines:
         raise GestureFileError(path, f"has no header line; {_HEADER}")
     header, body = lines[0], lines[1:]
-    units = [None] * len(header.cells)
-    if body and any(body[0].cells) and all(not cell or cell.lower() in UNIT_OF for cell in body[0].cells):
+    units: list[str | None] = [None] * len(header.cells)
+    if body and _is_units(body[0].cells):
         units = [UNIT_OF.get(cell.lower()) for cell in body[0].cells]
         body = body[1:]
     at = _time_place(header, path)
@@ -70,6 +71,12 @@ def read(path: Path, said: Said) -> MotionFile:
     return of_rows(path, names, times, angles, [*told, *concluded], [line.number for line in body])
 
 
+def _is_units(cells: list[str]) -> bool:
+    """Return whether a line holds units; a lone 1, which stands for fractions, may as well be a number."""
+    words = [cell.lower() for cell in cells if cell]
+    return all(word in UNIT_OF for word in words) and any(word not in ("1", "") for word in words)
+
+
 def is_table(text: str) -> bool:
     """Return whether a text begins like a table of joint angles."""
     lines, _ = _lines(text)
@@ -80,7 +87,7 @@ def is_table(text: str) -> bool:
 
 
 def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
-    """Write a motion as a table in degrees, a row a key; cells are empty before a joint's first key and after its last."""
+    """Write a motion as a table in degrees, a row a key; cells are empty outside a joint's own keys."""
     times = union_of_times({name: curve.straight() for name, curve in curves.items()})
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -125,7 +132,9 @@ def _time_place(header: _Line, path: Path) -> int:
         shown = header.cells[0] if header.cells else ""
         raise GestureFileError(path, f"has no header line with a time (line {header.number}: '{shown}'); {_HEADER}")
     if len(places) > 1:
-        raise GestureFileError(path, f"line {header.number}, column {places[1] + 1}: a second column of times; keep one")
+        raise GestureFileError(
+            path, f"line {header.number}, column {places[1] + 1}: a second column of times; keep one"
+        )
     return places[0]
 
 
@@ -144,7 +153,8 @@ def _cell(line: _Line, index: int, header: _Line, delimiter: str | None, path: P
         used -= 1
     if used > len(header.cells) or len(line.cells) < len(header.cells):
         raise GestureFileError(
-            path, f"line {line.number} has {max(used, 1)} cells, the header (line {header.number}) has {len(header.cells)}"
+            path,
+            f"line {line.number} has {max(used, 1)} cells, the header (line {header.number}) has {len(header.cells)}",
         )
     cell = line.cells[index]
     if not cell:

@@ -1,8 +1,9 @@
 """Choregraphe's time lines: ``.xar`` behaviours, ``.pml`` projects, and animations of their own.
 
-A time line has its frames per second (25 as a rule) and a curve an actuator, in degrees (``unit`` 0 or ``degree``), radians
-or, for hands, fractions (1 or ``dimensionless``); keys may have Bezier tangents in frames and the curve's unit. Keys
-without tangents are joined by straight lines. Files are read as plain XML: no document type, no entities, nothing fetched.
+A time line has its frames per second (25 as a rule) and a curve an actuator, in degrees (``unit`` 0 or ``degree``),
+radians or, for hands, fractions (1 or ``dimensionless``); keys may have Bezier tangents in frames and the curve's
+unit. Keys without tangents are joined by straight lines. Files are read as plain XML: no document type, no entities,
+nothing fetched.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ def read(path: Path, said: Said) -> MotionFile:
     if not lines:
         raise GestureFileError(path, "has no time line with joint curves")
     line = _chosen(lines, path, said)
-    notes = {}
+    notes: dict[str, None] = {}
     if _tag(root) in ("Package", "ChoregrapheProject"):
         notes["of the behaviour only the time line is read; boxes, scripts, sounds and stiffness are left out"] = None
     curves: dict[str, Curve] = {}
@@ -76,7 +77,9 @@ def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
     """Write a behaviour that is one time line of 25 frames a second, a key a frame."""
     last = max(float(curve.times[-1]) for curve in curves.values())
     frames = int(np.ceil(last * FPS - 1e-9)) + 1
-    root = Element("ChoregrapheProject", xmlns="http://www.aldebaran-robotics.com/schema/choregraphe/project.xsd", xar_version="3")
+    root = Element(
+        "ChoregrapheProject", xmlns="http://www.aldebaran-robotics.com/schema/choregraphe/project.xsd", xar_version="3"
+    )
     box = ElementTree.SubElement(root, "Box", name=path.stem, id="-1", localization="8", tooltip="", x="0", y="0")
     line = ElementTree.SubElement(
         box, "Timeline", enable="1", fps=f"{FPS:g}", start_frame="1", end_frame="-1", size=str(frames + 1)
@@ -90,7 +93,9 @@ def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
         )
         straight = curve.straight(1 / FPS)
         at = np.unique(np.round(straight.times * FPS).astype(int))
-        dense = len(straight.times) > len(at) or np.abs(straight.times * FPS - np.round(straight.times * FPS)).max() > 1e-3
+        dense = (
+            len(straight.times) > len(at) or np.abs(straight.times * FPS - np.round(straight.times * FPS)).max() > 1e-3
+        )
         moved = moved or bool(dense)
         values = np.interp(at / FPS, straight.times, straight.values) * unit_of(name)[1]
         for frame, value in zip(at.tolist(), values.tolist(), strict=True):
@@ -149,7 +154,9 @@ def _project(root: Element, path: Path) -> list[_TimeLine]:
             continue
         behaviour = path.parent / entry.get("src", ".") / entry.get("xar", "behavior.xar")
         if not behaviour.resolve().is_relative_to(path.parent.resolve()):
-            raise GestureFileError(path, f"names a behaviour outside its folder ({entry.get('src')}); name the .xar itself")
+            raise GestureFileError(
+                path, f"names a behaviour outside its folder ({entry.get('src')}); name the .xar itself"
+            )
         found += _time_lines(_parse(behaviour))
     return found
 

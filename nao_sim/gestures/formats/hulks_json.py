@@ -37,7 +37,8 @@ def read(path: Path, said: Said) -> MotionFile:
     if not is_motion(content):
         raise GestureFileError(path, "has no 'initial_positions' with 'motion' or 'frames'; is it a HULKs motion?")
     poses = [_pose(content["initial_positions"], "initial_positions", path)]
-    times, now, notes = [0.0], 0.0, {}
+    times, now = [0.0], 0.0
+    notes: dict[str, None] = {}
     for where, frame in _frames(content, path, notes):
         if not isinstance(frame, dict) or "duration" not in frame or "positions" not in frame:
             raise GestureFileError(path, f"{where} has no 'duration' and 'positions'")
@@ -58,7 +59,8 @@ def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
     times, rows, notes = whole_poses(curves, BODY)
     poses = [_positions(dict(zip(BODY, row, strict=True))) for row in np.round(rows, 6).tolist()]
     frames = [
-        {"duration": round(float(step), 6), "positions": pose} for step, pose in zip(np.diff(times), poses[1:], strict=True)
+        {"duration": round(float(step), 6), "positions": pose}
+        for step, pose in zip(np.diff(times), poses[1:], strict=True)
     ]
     content = {"initial_positions": poses[0], "motion": [{"keyframes": frames}]}
     write_whole(path, json.dumps(content, indent=2) + "\n")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ from nao_sim.gestures.formats.said import Said
 from nao_sim.gestures.gesture import Gesture, KeyFrame
 from nao_sim.motion.curves import Curve
 from nao_sim.motion.limits import unit_of
-from nao_sim.motion.violations import Violation, violations
+from nao_sim.motion.violations import Violation, angle_violations, violations
 from nao_sim.robot.joints import joint_table
 from nao_sim.robot.tolerance import on_limits
 
@@ -55,7 +55,7 @@ class MotionFile:
             GestureFileError: an angle outside its range.
         """
         if not fit:
-            _refuse(self.path, self.violations(limits))
+            _refuse(self.path, angle_violations(self.curves, limits))
         straight, notes = _on_limits({name: curve.straight() for name, curve in self.curves.items()}, limits, fit)
         frames: dict[float, dict[str, float]] = {}
         for name, curve in straight.items():
@@ -111,14 +111,7 @@ def of_rows(
     return MotionFile(path, curves, tuple(notes))
 
 
-def with_notes(motion: MotionFile, *notes: str) -> MotionFile:
-    """Return the motion with more notes."""
-    return replace(motion, notes=motion.notes + tuple(note for note in notes if note))
-
-
-def _refuse(path: Path, found: list[Violation]) -> None:
-    """Refuse angles out of range; speeds are for :func:`nao_sim.motion.limits.check` and fitting."""
-    out = [entry for entry in found if not entry.unit.endswith("/s")]
+def _refuse(path: Path, out: list[Violation]) -> None:
     if not out:
         return
     worst = max(out, key=lambda entry: max(entry.value - entry.bounds[1], entry.bounds[0] - entry.value))
@@ -128,9 +121,7 @@ def _refuse(path: Path, found: list[Violation]) -> None:
     raise GestureFileError(path, f"{worst}{more}{hint}; keep inside it, {' or '.join([*mends, 'pass --fit'])}")
 
 
-def _on_limits(
-    curves: Mapping[str, Curve], limits: str, fit: bool
-) -> tuple[dict[str, Curve], tuple[str, ...]]:
+def _on_limits(curves: Mapping[str, Curve], limits: str, fit: bool) -> tuple[dict[str, Curve], tuple[str, ...]]:
     """Return curves with what is past a limit by the joints' own softness put on it, and a note of the furthest."""
     put, furthest = {}, (0.0, "")
     for name, curve in curves.items():

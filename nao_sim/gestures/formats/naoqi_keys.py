@@ -1,10 +1,10 @@
 """Motions in Python scripts: what Choregraphe exports, what ``nao-sim export`` writes, and what people write by hand.
 
-A script is parsed and never run. Of it are understood: lists called ``names``, ``times``, ``keys`` (or ``angleLists``,
-``timeLists``), filled by assignment, ``append`` or ``extend``, and the arguments of ``angleInterpolation`` and
-``angleInterpolationBezier``; numbers may be computed with ``+ - * /``, ``math.pi``, ``math.radians`` and ``TO_RAD``. A key
-is an angle in radians, or an angle with its two Bezier handles ``[angle, [3, -dt, da], [3, dt, da]]``. Scripts for
-Python 2, as NAOqi's are, are read line by line.
+A script is parsed and never run. Of it are understood: lists called ``names``, ``times``, ``keys`` (or
+``angleLists``, ``timeLists``), filled by assignment, ``append`` or ``extend``, and the arguments of
+``angleInterpolation`` and ``angleInterpolationBezier``; numbers may be computed with ``+ - * /``, ``math.pi``,
+``math.radians`` and ``TO_RAD``. A key is an angle in radians, or an angle with its two Bezier handles ``[angle, [3,
+-dt, da], [3, dt, da]]``. Scripts for Python 2, as NAOqi's are, are read line by line.
 """
 
 from __future__ import annotations
@@ -31,10 +31,11 @@ _MAX_BYTES = 8_000_000
 _ROLES = {"names": "names", "times": "times", "timelists": "times", "timelist": "times"}
 _ROLES |= {"keys": "keys", "anglelists": "keys", "anglelist": "keys"}
 _ORDER = {"angleInterpolation": ("names", "keys", "times"), "angleInterpolationBezier": ("names", "times", "keys")}
-_LEFT_OUT = (
-    "goToPosture setStiffnesses stiffnessInterpolation moveTo walkTo move moveToward setWalkTargetVelocity moveInit "
-    "openHand closeHand setAngles changeAngles wakeUp rest say post"
-).split()
+# Methods of the robot that people call beside: whoever reads the motion alone should know that they were there.
+_LEFT_OUT = frozenset(
+    {"goToPosture", "setStiffnesses", "stiffnessInterpolation", "wakeUp", "rest", "say", "setAngles", "changeAngles"}
+    | {"moveTo", "walkTo", "move", "moveToward", "setWalkTargetVelocity", "moveInit", "openHand", "closeHand"}
+)
 
 
 class _NotConstant(Exception):
@@ -62,7 +63,9 @@ def read(path: Path, said: Said) -> MotionFile:
     found, left_out = _search(read_text(path, _MAX_BYTES), path)
     motions = [motion for motion in found if motion.whole]
     if not motions:
-        raise GestureFileError(path, "has no lists names, times and keys with constant values; export it from Choregraphe")
+        raise GestureFileError(
+            path, "has no lists names, times and keys with constant values; export it from Choregraphe"
+        )
     notes = [f"of the script only the joint angles are read; left out: {', '.join(left_out)}"] if left_out else []
     chosen = _chosen(motions, path, said)
     curves = _curves(chosen, path)

@@ -50,7 +50,7 @@ if __name__ == "__main__":
 
 
 def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
-    """Write a motion as a Python script for ``qi``; of joints that are sampled densely only those that move are in it."""
+    """Write a motion as a Python script for ``qi``; sampled joints that do not move are left out."""
     straight = {name: curve.straight(_SPACING_S) for name, curve in curves.items()}
     kept = {name: _thinned(curve) for name, curve in straight.items() if len(curve.times) < 3 or _moves(curve)}
     dense = min(len(curve.times) for curve in curves.values()) > 2

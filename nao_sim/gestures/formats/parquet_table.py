@@ -49,7 +49,9 @@ def read(path: Path, said: Said) -> MotionFile:
     at = next((column for column in columns if time_column(column)[0]), None)
     joints = [column for column in columns if split_header(column)[0] in BODY]
     if at is None or not joints:
-        raise GestureFileError(path, "has no joint columns that are known: <joint>.target, action, or <joint>_rad with a time")
+        raise GestureFileError(
+            path, "has no joint columns that are known: <joint>.target, action, or <joint>_rad with a time"
+        )
     table = _load(path, [at, *joints])
     heads = [split_header(column) for column in joints]
     rows = np.stack([table[column] for column in joints], axis=1)
@@ -69,7 +71,7 @@ def is_motion(path: Path) -> bool:
 
 
 def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
-    """Write a motion as ``time`` in seconds and ``<joint>.target`` in rad, a row a key, units in the columns' metadata."""
+    """Write a motion as ``time`` (s) and ``<joint>.target`` (rad), a row a key, units in the columns' metadata."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -103,7 +105,9 @@ def _schema(path: Path) -> tuple[list[str], dict[str, str]]:
         raise GestureFileError(path, f"is not a Parquet table ({str(error).splitlines()[0]})") from None
     if rows > _MOST_ROWS:
         raise GestureFileError(path, f"has {rows} rows; a motion has at most {_MOST_ROWS}")
-    units = {field.name: field.metadata[b"unit"].decode() for field in schema if field.metadata and b"unit" in field.metadata}
+    units = {
+        field.name: field.metadata[b"unit"].decode() for field in schema if field.metadata and b"unit" in field.metadata
+    }
     return list(schema.names), units
 
 
@@ -132,7 +136,10 @@ def _motion(
     notes: list[str],
 ) -> MotionFile:
     names = [checks.joint_name(name, path, "column") for name in names]
-    scales = [joint_scale(None if name in HANDS and unit == "rad" else unit, name, path, "column") for name, unit in zip(names, units, strict=True)]
+    scales = [
+        joint_scale(None if name in HANDS and unit == "rad" else unit, name, path, "column")
+        for name, unit in zip(names, units, strict=True)
+    ]
     seconds, told = times_in_s(times, time_unit, path, said)
     angles, concluded = angles_in_rad(names, scales, rows, path, said)
     kept = {name: column for column, name in reversed(list(enumerate(names)))}
@@ -162,8 +169,14 @@ def _lerobot(path: Path, said: Said, vector: str, columns: list[str]) -> MotionF
     notes = [f"'{vector}' is read"] + ([f"{left} numbers that are no joint angles are left out"] if left else [])
     times = np.array(table["timestamp"].to_pylist(), dtype=float)
     return _motion(
-        path, said, [heads[index][0] for index in kept], poses[:, kept], times - times[:1].sum(), "s",
-        [heads[index][1] for index in kept], notes,
+        path,
+        said,
+        [heads[index][0] for index in kept],
+        poses[:, kept],
+        times - times[:1].sum(),
+        "s",
+        [heads[index][1] for index in kept],
+        notes,
     )
 
 
@@ -173,7 +186,14 @@ def _bare(name: str) -> str:
 
 def _names(path: Path, vector: str, width: int) -> list[str]:
     """Return the names of a vector's numbers from the data set's ``meta/info.json``."""
-    info = next((parent / "meta" / "info.json" for parent in path.resolve().parents[:4] if (parent / "meta" / "info.json").is_file()), None)
+    info = next(
+        (
+            parent / "meta" / "info.json"
+            for parent in path.resolve().parents[:4]
+            if (parent / "meta" / "info.json").is_file()
+        ),
+        None,
+    )
     if info is None:
         raise GestureFileError(path, f"'{vector}' has no names: no meta/info.json above it; keep it in its data set")
     try:

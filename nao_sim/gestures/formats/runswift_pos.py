@@ -40,7 +40,9 @@ def read(path: Path, said: Said) -> MotionFile:
     Raises:
         GestureFileError: not such a file, with the line of what is wrong.
     """
-    now, times, rows, lines, notes = 0.0, [], [], [], {}
+    now, times, lines = 0.0, [], []
+    rows: list[list[float]] = []
+    notes: dict[str, None] = {}
     for number, line in enumerate(read_text(path).splitlines(), start=1):
         cells = line.split("#")[0].split()
         if not cells:

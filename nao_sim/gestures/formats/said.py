@@ -65,7 +65,7 @@ def said(
             continue
         if name in ANGLE_UNITS and angle in (None, name) and not rate:
             angle = name
-        elif (name in TIME_UNITS and not rate or name == "frames") and time in (None, name):
+        elif ((name in TIME_UNITS and not rate) or name == "frames") and time in (None, name):
             time = name
             fps = _rate(rate) if name == "frames" else None
         elif word == "clock":

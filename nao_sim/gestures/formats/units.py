@@ -108,15 +108,17 @@ def angles_in_rad(
         if most <= MOST_RAD:
             raise GestureFileError(
                 path,
-                f"{names}: no unit, and no angle beyond ±{MOST_RAD:g}: radians? "
-                f"name columns '{columns[bare[0]]}_rad' or '{columns[bare[0]]}_deg', or pass --units rad or --units deg",
+                f"{names}: no unit, and no angle beyond ±{MOST_RAD:g}: radians? Name columns "
+                f"'{columns[bare[0]]}_rad' or '{columns[bare[0]]}_deg', or pass --units rad or --units deg",
             )
         notes.append(f"{names}: no unit; taken as degrees, since they go to {most:g}")
     bare_scale = 1.0 if unit == "rad" else float(np.deg2rad(1.0))
     return rows * np.array([bare_scale if scale is None else scale for scale in scales]), notes
 
 
-def times_in_s(times: NDArray[np.float64], unit: str | None, path: Path, said: Said) -> tuple[NDArray[np.float64], list[str]]:
+def times_in_s(
+    times: NDArray[np.float64], unit: str | None, path: Path, said: Said
+) -> tuple[NDArray[np.float64], list[str]]:
     """Return a table's times in seconds from its start, and a note where the unit had to be concluded.
 
     Args:
@@ -129,6 +131,8 @@ def times_in_s(times: NDArray[np.float64], unit: str | None, path: Path, said: S
     """
     if unit is not None and unit not in TIME_UNITS and unit != "frames":
         raise GestureFileError(path, f"times have the unit '{unit}'; write s, ms, us, ns or frames")
+    if not len(times):
+        return times, []
     unit, notes = unit or said.time_unit, []
     if unit == "frames":
         if said.fps is None:
@@ -136,24 +140,23 @@ def times_in_s(times: NDArray[np.float64], unit: str | None, path: Path, said: S
         seconds = times / said.fps
     else:
         seconds = times * TIME_UNITS[unit or "s"]
-    if said.clock and len(seconds):
+    if said.clock:
         seconds = seconds - seconds[0]
     elif unit is None:
         _plausible_seconds(seconds, path)
-        notes.append(f"times have no unit; taken as seconds, it ends at {seconds[-1]:g} s" if len(seconds) else "")
-    checks.not_too_long(float(seconds[-1]) if len(seconds) else 0.0, path, said.longest_s, float(seconds[0]))
-    return seconds, [note for note in notes if note]
+        notes.append(f"times have no unit; taken as seconds, it ends at {seconds[-1]:g} s")
+    checks.not_too_long(float(seconds[-1]), path, said.longest_s, float(seconds[0]))
+    return seconds, notes
 
 
 def _plausible_seconds(seconds: NDArray[np.float64], path: Path) -> None:
     """Refuse times without a unit that cannot be seconds from the start."""
-    if not len(seconds):
-        return
     if abs(seconds[0]) >= _UNIX_S:
         stamp = seconds[0] * 10.0 ** -(3 * max(0, round((np.log10(abs(seconds[0])) - 9) / 3)))
         day = datetime.datetime.fromtimestamp(stamp, datetime.UTC).strftime("%Y-%m-%d %H:%M")
         raise GestureFileError(
-            path, f"starts at {seconds[0]:.15g}: times of a clock ({day})? times count from the start; pass --units clock"
+            path,
+            f"starts at {seconds[0]:.15g}: times of a clock ({day})? times count from the start; pass --units clock",
         )
     lasts = checks.in_words(float(seconds[-1]))
     apart = float(np.median(np.diff(seconds))) if len(seconds) > 1 else float(seconds[0])

@@ -6,10 +6,11 @@
     00:00:000,Pose1,0.1,1.4
     00:00:020,Pose2,*,1.3
 
-Angles are radians; ``*`` leaves a motor alone; a time is ``m:s:ms``, ``s:ms`` or ``ms``. Webots's NAO has no hand motor but
-eight finger joints a hand, all of which carry the hand's opening; and a motor for each HipYawPitch, which on the robot are
-one (the left one's is read). Teams of the RoboCup 3D simulation league write V1.0 and V1.1 with the names on a line of
-their own, V1.1 parted by ``%``, each line with the seconds that it takes at its end (``play%0.1%1.4%0.5``); these are read.
+Angles are radians; ``*`` leaves a motor alone; a time is ``m:s:ms``, ``s:ms`` or ``ms``. Webots's NAO has no hand
+motor but eight finger joints a hand, all of which carry the hand's opening; and a motor for each HipYawPitch, which
+on the robot are one (the left one's is read). Teams of the RoboCup 3D simulation league write V1.0 and V1.1 with the
+names on a line of their own, V1.1 parted by ``%``, each line with the seconds that it takes at its end
+(``play%0.1%1.4%0.5``); these are read.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from nao_sim.gestures.formats.motion_file import MotionFile, of_rows
 from nao_sim.gestures.formats.said import Said
 from nao_sim.gestures.formats.text_file import read_text, write_whole
 from nao_sim.motion.curves import Curve, rows_of, union_of_times
+from nao_sim.motion.trajectory import CONTROL_PERIOD
 
 _MAGIC = "#WEBOTS_MOTION"
 _VERSIONS = ("V1.0", "V1.1")
@@ -65,7 +67,9 @@ def read(path: Path, said: Said) -> MotionFile:
         if played:
             if len(cells) != len(asked) + 2:
                 _wrong_count(path, number, len(cells) - 2, len(asked))
-            now += _angle(cells[-1], path, number, len(cells), "seconds")
+            took = _angle(cells[-1], path, number, len(cells), "seconds")
+            # What takes no time is a step, which no set-point can make faster than the next one comes.
+            now += took or (CONTROL_PERIOD if rows else 0.0)
             cells = ["", *cells[:-1]]
         elif len(cells) != len(asked) + 2:
             _wrong_count(path, number, len(cells) - 2, len(asked))
