@@ -56,8 +56,8 @@ class Violation:
         if self.step:
             unit = "deg" if self.unit == "deg/s" else "of its opening"
             return (
-                f"{self.joint} at {when} steps by {self.step:.3g} {unit}: asked for {value} {self.unit}, its motor does "
-                f"{high} {self.unit} and takes {self.step / self.bounds[1]:.2g} s"
+                f"{self.joint} at {when} steps by {self.step:.3g} {unit}: asked for {value} {self.unit}, its motor "
+                f"does {high} {self.unit} and takes {self.step / self.bounds[1]:.2g} s"
             )
         if self.unit.endswith("/s"):
             return f"{self.joint} at {when} is asked for {value} {self.unit}, its motor does {high} {self.unit}"

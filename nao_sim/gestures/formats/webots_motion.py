@@ -61,7 +61,8 @@ def read(path: Path, said: Said) -> MotionFile:
     asked = _without_end(first[2:])
     columns = _columns(asked, path)
     played = bool(body) and _is_played(body[0][1], sign)
-    now, times, rows = 0.0, [], []
+    now, times = 0.0, []
+    rows: list[list[float]] = []
     for number, line in body:
         cells = _without_end([cell.strip() for cell in line.split(sign)])
         if played:
