@@ -11,8 +11,8 @@ from nao_sim.motion.limits import asked_over_able, bounds
 from nao_sim.motion.trajectory import Trajectory
 from nao_sim.robot.joints import ACTUATED
 
-# A joint so near its first key frame is there.
-_SAME_RAD = 1e-3
+# A joint so near its first key frame is there with the next set-point: measured poses differ so from asked ones.
+_SAME_RAD = 0.01
 # Of a movement of d in T: greatest speed at most 3 d / T (a cubic that runs on through its end), greatest acceleration
 # about 6 d / T².
 _PEAK_SPEED, _PEAK_ACCELERATION = 3.0, 6.0
