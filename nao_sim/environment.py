@@ -213,8 +213,8 @@ class TrackGesture(control.Task):
             TargetError: not one finite number per motor.
         """
         asked = np.asarray(action, dtype=float)
-        if asked.shape != self._low.shape:
-            raise TargetError(f"an action of shape {asked.shape}; give {self._low.shape}, one target per motor")
+        if asked.shape != self._low.shape or not np.isfinite(asked).all():
+            raise TargetError(f"an action must be {self._low.size} finite numbers, one target in rad per motor")
         physics.command.set_all(np.minimum(np.maximum(asked, self._low), self._high))
 
     def after_step(self, physics: NaoPhysics) -> None:
