@@ -21,7 +21,7 @@ TIMELINE = "time"
 
 
 def nanoseconds(seconds: ArrayLike) -> NDArray[np.timedelta64]:
-    """Return seconds, any shape, as whole nanoseconds, rounded."""
+    """Return seconds, shape (n,), as whole nanoseconds, rounded."""
     return np.rint(np.asarray(seconds, dtype=float) * 1e9).astype("timedelta64[ns]")
 
 
@@ -35,7 +35,7 @@ def column(seconds: ArrayLike) -> list[rr.TimeColumn]:
 @contextmanager
 def moment(stream: rr.RecordingStream, seconds: float) -> Iterator[None]:
     """Log at a moment what is logged inside the block."""
-    stream.set_time(TIMELINE, duration=nanoseconds(seconds)[()])
+    stream.set_time(TIMELINE, duration=nanoseconds([seconds])[0])
     try:
         yield
     finally:

@@ -1,6 +1,6 @@
 """What a recording is, as a few typed values, for viewers and catalogs that look at many recordings.
 
-A property has one type for ever, number or text, whatever came first: ``rr.AnyValues`` keeps a field's first type for the
+A number is a float64 and the rest is text, whatever came first: ``rr.AnyValues`` keeps a field's first type for the
 whole process, so that a score of 0.75 after one of 1 is dropped, and 2.0 becomes 2.
 """
 

@@ -203,7 +203,7 @@ def test_properties_keep_their_values_and_types_from_run_to_run(tmp_path: Path) 
     runs = [
         {"distance": 1, "gesture": "yes"},
         {"distance": 0.75, "gesture": None},
-        {"distance": np.float32(2), "gesture": 7},
+        {"distance": np.float32(2), "gesture": "7"},
     ]
     for index, values in enumerate(runs):
         path = tmp_path / f"{index}.rrd"
