@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nao_sim.gestures.gesture import KeyFrame
+from nao_sim.gestures.key_frames import KeyFrame
 from nao_sim.motion.limits import asked_over_able, bounds
 from nao_sim.motion.trajectory import Trajectory
 from nao_sim.robot.joints import ACTUATED

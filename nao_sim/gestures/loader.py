@@ -32,13 +32,13 @@ import numpy as np
 from nao_sim.errors import did_you_mean
 from nao_sim.gestures import checks
 from nao_sim.gestures.errors import GestureFileError
-from nao_sim.gestures.gesture import (
+from nao_sim.gestures.gesture import Gesture
+from nao_sim.gestures.key_frames import (
     LATEST_FOLLOW_S,
     LONGEST_S,
     MOST_REPETITIONS,
     TORSO_KEYS,
     Cycle,
-    Gesture,
     KeyFrame,
     Walk,
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import weakref
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -28,6 +29,10 @@ class Cameras:
     def __init__(self, wiring: Wiring) -> None:
         self._model, self._wiring = wiring.model, wiring
         self._canvases: dict[tuple[int, int, bool], Canvas] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        # An OpenGL context belongs to its process; a copy makes its own.
+        return self.__dict__ | {"_canvases": {}}
 
     @property
     def names(self) -> list[str]:

@@ -63,6 +63,14 @@ class CommandLayer:
         self.setpoint = self.targets.copy()
         self._travel = np.zeros(len(ACTUATED))
 
+    def state(self) -> np.ndarray:
+        """Return ``(75,)`` what the layer remembers: targets, set-point, and how far that went in the last period."""
+        return np.concatenate([self.targets, self.setpoint, self._travel])
+
+    def restore(self, state: np.ndarray) -> None:
+        """Go on from what :meth:`state` returned."""
+        self.targets, self.setpoint, self._travel = np.array(state, dtype=float).reshape(3, len(ACTUATED))
+
     def set(self, names: str | Sequence[str], angles: ArrayLike) -> None:
         """Set the targets of some joints, rad (hands: open fraction).
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from nao_sim.gestures import checks
 from nao_sim.gestures.errors import GestureFileError
 from nao_sim.gestures.formats.said import Said
-from nao_sim.gestures.gesture import Gesture, KeyFrame
+from nao_sim.gestures.gesture import Gesture
+from nao_sim.gestures.key_frames import KeyFrame
 from nao_sim.motion.curves import Curve
 from nao_sim.motion.limits import unit_of
 from nao_sim.motion.violations import Violation, angle_violations, violations

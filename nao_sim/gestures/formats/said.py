@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from nao_sim.errors import did_you_mean
 from nao_sim.gestures.errors import GestureError
-from nao_sim.gestures.gesture import LONGEST_S
+from nao_sim.gestures.key_frames import LONGEST_S
 
 ANGLE_UNITS = ("rad", "deg")
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
