@@ -280,6 +280,6 @@ def track(
         True
     """
     names = [gestures] if isinstance(gestures, str) else list(gestures)
-    trajectories = [find_gesture(name).trajectory(limits=limits, **options) for name in names]
+    trajectories = [find_gesture(name, limits=limits).trajectory(limits=limits, **options) for name in names]
     task = TrackGesture(trajectories, seed, limits)
     return control.Environment(NaoPhysics.of_robot(limits), task, control_timestep=CONTROL_PERIOD, legacy_step=False)

@@ -13,7 +13,7 @@ from nao_sim.gestures.formats.said import Said
 from nao_sim.gestures.formats.text_file import check_file
 from nao_sim.motion.curves import Curve
 from nao_sim.motion.limits import HANDS
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import TIMELINE
 from nao_sim.robot.joints import ACTUATED
 
 _MAX_BYTES = 2_000_000_000

@@ -76,7 +76,7 @@ def write(curves: Mapping[str, Curve], path: Path) -> list[str]:
         now = round(time * 1000)
         if now <= before and len(lines) > 1:
             continue
-        lines.append(" ".join([*(f"{value:.4f}".rstrip("0").rstrip(".") for value in row), str(max(now - before, 0))]))
+        lines.append(" ".join([*(f"{value:.6f}".rstrip("0").rstrip(".") for value in row), str(max(now - before, 0))]))
         before = now
     write_whole(path, "\n".join(lines) + "\n")
     return notes
