@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,7 +13,7 @@ from nao_sim.gestures.gesture import Gesture
 from nao_sim.gestures.library import find_gesture, library
 from nao_sim.gestures.preparation import written
 from nao_sim.motion import Change, MotionLog, Trajectory, fit, perform
-from nao_sim.motion.curves import Curve, curves_of
+from nao_sim.motion.curves import curves_of
 from nao_sim.motion.measures import Criteria, Measures, measure
 from nao_sim.motion.violations import Violation, angle_violations, speed_violations
 from nao_sim.robot import Nao
@@ -99,7 +98,7 @@ def _judged(name_or_file: str | Path, limits: str, said: Said | None) -> tuple[G
         return gesture, []
     trajectory = written(gesture)
     # Key frames between two set-points count too; joints that nobody named are those of the whole-body kinematics.
-    keys = _keys(gesture)
+    keys = gesture.curves()
     others = {name: curve for name, curve in curves_of(trajectory).items() if name not in keys}
     angles = angle_violations({**keys, **others}, limits)
     return gesture, angles + speed_violations(trajectory, limits)
@@ -109,14 +108,6 @@ def _judged_file(motion: MotionFile, limits: str, said: Said) -> tuple[Gesture, 
     found = motion.violations(limits)
     out_of_range = any(not entry.unit.endswith("/s") for entry in found)
     return motion.gesture(said, limits, fit=out_of_range), found
-
-
-def _keys(gesture: Gesture) -> Mapping[str, Curve]:
-    keys: dict[str, list[tuple[float, float]]] = {}
-    for frame in gesture.key_frames:
-        for name, value in frame.angles_rad.items():
-            keys.setdefault(name, []).append((frame.time_s, value))
-    return {name: Curve(*np.array(rows, dtype=float).T) for name, rows in keys.items()}
 
 
 def _validate_walk(name: str, gesture: Gesture, limits: str, criteria: Criteria) -> Validation:

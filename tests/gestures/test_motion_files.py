@@ -73,6 +73,7 @@ def test_what_the_header_does_not_say_a_person_may(write):
         said("fot")
 
 
+@settings(max_examples=40, deadline=None)
 @given(
     scale=st.sampled_from([1e3, 1e6, 1e9]),
     period=st.sampled_from([0.01, 0.012, 0.02, 0.033, 0.04, 0.1]),
@@ -86,6 +87,7 @@ def test_times_in_another_unit_never_pass_as_seconds(scale, period, rows, tmp_pa
         load_motion(path)
 
 
+@settings(max_examples=40, deadline=None)
 @given(most=st.floats(0.01, 3.2), count=st.integers(1, 5))
 def test_angles_without_a_unit_that_may_be_radians_are_refused(most, count, tmp_path_factory):
     path = tmp_path_factory.getbasetemp() / "bare.csv"

@@ -8,14 +8,15 @@ from pathlib import Path
 from nao_sim.gestures.errors import GestureError
 from nao_sim.gestures.formats import load_motion
 from nao_sim.gestures.formats.said import Said
+from nao_sim.gestures.gesture import Gesture
 from nao_sim.motion.curves import Curve, curves_of
 
 
 def curves_of_file(source: str | Path, said: Said) -> tuple[Mapping[str, Curve], list[str]]:
     """Return the keys of a motion file or of a gesture, and what was left out.
 
-    Files are taken at their word, at their own times; gestures (``.toml`` or of the library) are written out from
-    StandInit every 20 ms, with their easing, repetitions and legs.
+    Files are taken at their word, at their own times; gestures (``.toml`` or of the library) that are more than angles
+    joined by straight lines are written out from StandInit every 20 ms, with their easing, repetitions and legs.
 
     Raises:
         GestureError: it cannot be read, or is a walk.
@@ -32,5 +33,13 @@ def curves_of_file(source: str | Path, said: Said) -> tuple[Mapping[str, Curve],
         raise GestureError(
             f"'{gesture.name}' is a walk: its steps depend on balance, and no table of angles carries it"
         )
+    if _plain(gesture):
+        return gesture.curves(), list(gesture.notes)
     notes = ["key frames, easing, repetitions and the torso are written out as angles every 20 ms"]
     return curves_of(written(gesture)), [*gesture.notes, *notes]
+
+
+def _plain(gesture: Gesture) -> bool:
+    """Return whether a gesture is nothing but angles joined by straight lines."""
+    more = any(frame.torso or frame.rest for frame in gesture.key_frames)
+    return gesture.easing == "linear" and not (more or gesture.cycle or gesture.follow_through_s)

@@ -142,7 +142,9 @@ def _motion(
     ]
     seconds, told = times_in_s(times, time_unit, path, said)
     angles, concluded = angles_in_rad(names, scales, rows, path, said)
-    kept = {name: column for column, name in reversed(list(enumerate(names)))}
+    kept: dict[str, int] = {}
+    for column, name in enumerate(names):
+        kept.setdefault(name, column)
     return of_rows(path, list(kept), seconds, angles[:, list(kept.values())], [*notes, *told, *concluded])
 
 

@@ -38,6 +38,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("nao_longest", "Seconds that a motion may last.", default="")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Refuse an unknown range set before anything runs."""
+    if config.getoption("--nao-limits") or config.getini("nao_limits"):
+        _limit_sets(config)
+
+
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     """Make a collector of a motion file, if motion files were asked for."""
     config = parent.config
