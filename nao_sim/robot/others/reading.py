@@ -48,7 +48,7 @@ def read_model(path: Path) -> Read:
     missing, weightless = _without_missing_files(spec, path)
     read = hung_up(spec, str(path))
     kind = "URDF" if _is_urdf(path) else "MJCF"
-    return replace(read, format=kind, missing=missing, weightless=weightless + read.weightless)
+    return replace(read, format=kind, missing=missing, weightless=tuple(dict.fromkeys(weightless + read.weightless)))
 
 
 def hung_up(spec: mujoco.MjSpec, path: str) -> Read:
