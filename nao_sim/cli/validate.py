@@ -30,7 +30,14 @@ def validate(
         bool, typer.Option("--model", help="Instead: drive every joint of the robot model to both ends.")
     ] = False,
     mjcf: Annotated[
-        Path | None, typer.Option(help="With --model: somebody else's NAO (an MJCF file).", show_default=False)
+        Path | None, typer.Option(help="With --model: somebody else's NAO (an MJCF or URDF file).", show_default=False)
+    ] = None,
+    names: Annotated[
+        Path | None,
+        typer.Option(
+            help="With --mjcf, where its joints are called otherwise: a table with lines like 'HeadYaw,head.yaw'.",
+            show_default=False,
+        ),
     ] = None,
     figure: Annotated[
         Path | None, typer.Option(help="Draw the use of the ranges: FILE.png.", show_default=False)
@@ -49,7 +56,7 @@ def validate(
 
         if gestures or fit or out or units or longest or part or measured or junit:
             raise typer.BadParameter("--model takes no gestures nor their options; validate them in a second command")
-        if not validate_model_file(mjcf, limits, figure, as_json):
+        if not validate_model_file(mjcf, limits, figure, as_json, names):
             raise typer.Exit(EXIT_INVALID)
         return
     from nao_sim.cli.gesture_report import validate_gestures

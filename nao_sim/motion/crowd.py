@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import mujoco
 import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from nao_sim.robot.sensors import FSR
 
 Array = NDArray[np.float64]
 
+_BAD_STATE = slice(int(mujoco.mjtWarning.mjWARN_BADQPOS), int(mujoco.mjtWarning.mjWARN_BADQACC) + 1)
 _PUSH_S = 0.04  # a push takes so long
 # Down: the torso leans beyond 85 degrees, or is lower than any motion on the feet brings it.
 _DOWN_COS, _DOWN_HEIGHT_M = np.cos(np.deg2rad(85.0)), 0.17
@@ -34,7 +36,10 @@ _SOLE_REACH_M = 0.12
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What became of n trials: when each fell (s, NaN: it stayed up), and its greatest lean beyond the plan (rad)."""
+    """What became of n trials: when each fell (s, NaN: it stayed up), and its greatest lean beyond the plan (rad).
+
+    A trial whose simulation became unstable counts as fallen when it did.
+    """
 
     fell_at: Array
     worst_lean: Array
@@ -107,11 +112,18 @@ class Crowd:
         """Return each gyrometer's x and y, rad/s, shape (n, 2)."""
         return self._gyro
 
+    def lost(self) -> NDArray[np.bool_]:
+        """Return whose simulation has become unstable, shape (n,).
+
+        MuJoCo sets such a one back to its start, where it stands and goes on; only its warnings tell.
+        """
+        return self.batch.warning[:, _BAD_STATE, 1].any(axis=1)
+
     def down(self) -> NDArray[np.bool_]:
-        """Return which robots are down, shape (n,)."""
+        """Return which robots are down, or lost, shape (n,)."""
         quat = self._quat[:, self.torso]
         upright = 1 - 2 * (quat[:, 1] ** 2 + quat[:, 2] ** 2)
-        return (upright < _DOWN_COS) | (self._place_now[:, self.torso, 2] < _DOWN_HEIGHT_M)
+        return (upright < _DOWN_COS) | (self._place_now[:, self.torso, 2] < _DOWN_HEIGHT_M) | self.lost()
 
     def push(self, share: float, duration: float) -> None:
         """Apply the pushes that are on at this share of a motion of this many seconds."""
@@ -207,7 +219,9 @@ def _play(
         crowd.step(commands)
         newly = crowd.down() & np.isnan(fell_at)
         fell_at[newly] = (step + 1) * CONTROL_PERIOD
-        worst = np.maximum(worst, np.abs(crowd.lean() - player.leans[step + 1]).max(axis=1))
+        # What was set back to its start no longer leans.
+        lean = np.abs(crowd.lean() - player.leans[step + 1]).max(axis=1)
+        worst = np.where(crowd.lost(), worst, np.maximum(worst, lean))
         if rows is not None:
             rows.append(crowd.snapshot(player.planned[step + 1]))
         if progress is not None:
