@@ -61,6 +61,10 @@ def validate(
         return
     from nao_sim.cli.gesture_report import validate_gestures
 
+    if names is not None:
+        raise typer.BadParameter(
+            "names the joints of somebody's model; give the model with --mjcf", param_hint="--names"
+        )
     said = said_of(units, longest, part, measured)
     code = validate_gestures(gestures or [], limits, fit, out, figure, as_json, said, junit)
     if code:

@@ -3,9 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nao_sim.gestures import GestureError, KeyFrame, library, load_gesture
+from nao_sim.gestures import GestureError, KeyFrame, library, load_gesture, save_trajectory
 from nao_sim.gestures.act import act, motion_of
 from nao_sim.gestures.validation import validate_gesture
+from nao_sim.motion import Trajectory
 from nao_sim.motion.getting_up import stands
 from nao_sim.motion.stress import stress
 from nao_sim.robot import ACTUATED, Nao
@@ -97,3 +98,15 @@ def test_gestures_have_bounds(write):
         with pytest.raises(GestureError, match=said):
             load_gesture(write(text))
     assert load_gesture(write("\ufeff" + frame.format(1))).key_frames[0].time_s == 1
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".motion", ".parquet"])
+def test_what_the_robot_measured_can_be_read_and_commanded_again(nao, tmp_path, suffix):
+    nao.reset()
+    log = act(nao, library()["bye_right"], repetitions=1).log
+    save_trajectory(Trajectory(log.time, log.angles), tmp_path / f"measured{suffix}")
+    again = load_gesture(tmp_path / f"measured{suffix}")
+    nao.reset()
+    replayed = act(nao, again)
+    assert not replayed.log.fallen
+    assert not any(change.what == "angle" for change in replayed.changes)

@@ -16,6 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rerun.chunk import RrdReader
 
+from nao_sim.gestures.formats import Said, load_motion
 from nao_sim.recording.joints import in_display_units, log_balance, log_joints
 from nao_sim.recording.layout import layout
 from nao_sim.recording.narrative import log_decision, log_phases
@@ -237,3 +238,12 @@ def test_a_scene_s_bodies_may_be_called_anything(tmp_path: Path) -> None:
         log_body_poses(stream, model, np.zeros(1), pose)
     posed = {c.entity_path for c in RrdReader(path).stream() if not c.is_static}
     assert len([entity for entity in posed if entity.startswith("/world/robot/")]) == model.nbody - 1
+
+
+@pytest.mark.parametrize("measured", [False, True])
+def test_the_joints_of_a_recording_are_a_motion(rrd: Path, motion: dict[str, np.ndarray], measured: bool) -> None:
+    read = load_motion(rrd, Said(measured=measured))
+    wanted = motion["angles" if measured else "targets"]
+    for column, name in enumerate(ACTUATED):
+        assert np.allclose(read.curves[name].times, TIME, atol=1e-9)
+        assert np.allclose(read.curves[name].values, wanted[:, column], atol=1e-9)

@@ -116,10 +116,10 @@ def _refuse(path: Path, out: list[Violation]) -> None:
     if not out:
         return
     worst = max(out, key=lambda entry: max(entry.value - entry.bounds[1], entry.bounds[0] - entry.value))
-    more = "" if len(out) == 1 else f", and {len(out) - 1} more places (nao-sim validate lists them)"
-    mends = [f"pass --limits {worst.allowed_by[0]}"] if worst.allowed_by else []
+    more = "" if len(out) == 1 else f" (and {len(out) - 1} more: nao-sim validate lists them)"
+    mends = [f"--limits {worst.allowed_by[0]}"] if worst.allowed_by else []
     hint = "; are these degrees?" if worst.unit == "deg" and abs(worst.value) > 400 else ""
-    raise GestureFileError(path, f"{worst}{more}{hint}; keep inside it, {' or '.join([*mends, 'pass --fit'])}")
+    raise GestureFileError(path, f"{worst}{more}{hint}; keep inside it, or pass {' or '.join([*mends, '--fit'])}")
 
 
 def _on_limits(curves: Mapping[str, Curve], limits: str, fit: bool) -> tuple[dict[str, Curve], tuple[str, ...]]:
