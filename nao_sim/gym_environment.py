@@ -20,6 +20,8 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from nao_sim.environment import track
+from nao_sim.errors import NaoSimError
+from nao_sim.robot import TargetError
 
 ID = "NaoTrackGesture-v0"
 
@@ -36,20 +38,29 @@ _BOUNDS = {
 }
 
 
+class NoEpisodeError(NaoSimError, gymnasium.error.ResetNeeded):
+    """A step while no episode is on."""
+
+
 class NaoTrackGesture(gymnasium.Env[dict[str, NDArray[np.float64]], NDArray[np.float32]]):
     """:func:`nao_sim.environment.track` with Gymnasium's interface.
 
     Args:
         gestures: names or files of gestures; each episode draws one.
         render_mode: None, or ``"rgb_array"``.
+        limits: the robot's limit set.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012 - Gymnasium's own interface
 
-    def __init__(self, gestures: str | Sequence[str] = "bye_right", render_mode: str | None = None) -> None:
+    def __init__(
+        self, gestures: str | Sequence[str] = "bye_right", render_mode: str | None = None, limits: str = "thesis"
+    ) -> None:
+        if render_mode not in (None, "rgb_array"):
+            raise NaoSimError(f"no render mode '{render_mode}'; leave it out, or ask for 'rgb_array'")
         self.render_mode = render_mode
-        self._gestures = gestures
-        self._environment = track(gestures)
+        self._environment = track(gestures, limits=limits)
+        self._over = "has not begun"
         bounds = self._environment.action_spec()
         self._low, self._span = bounds.minimum, bounds.maximum - bounds.minimum
         self.action_space = spaces.Box(-1.0, 1.0, bounds.shape, np.float32)
@@ -65,14 +76,26 @@ class NaoTrackGesture(gymnasium.Env[dict[str, NDArray[np.float64]], NDArray[np.f
         super().reset(seed=seed)
         if seed is not None:
             self._environment.task.seed(seed)
-        return self._plain(self._environment.reset().observation), {}
+        moment = self._environment.reset()
+        self._over = ""
+        return self._plain(moment.observation), {}
 
     def step(
         self, action: NDArray[np.float32]
     ) -> tuple[dict[str, NDArray[np.float64]], float, bool, bool, dict[str, Any]]:
-        """Send one set-point; ``terminated`` is a fall, ``truncated`` the end of the gesture."""
-        targets = self._low + self._span * (np.asarray(action, dtype=float) + 1.0) / 2.0
-        moment = self._environment.step(targets)
+        """Send one set-point; ``terminated`` is a fall, ``truncated`` the end of the gesture.
+
+        Raises:
+            NoEpisodeError: before the first reset, or after the end of an episode.
+            TargetError: not one finite number per motor. Nothing has moved then.
+        """
+        if self._over:
+            raise NoEpisodeError(f"the episode {self._over}; call reset() before step()")
+        asked = np.asarray(action, dtype=float)
+        if asked.shape != self._low.shape or not np.isfinite(asked).all():
+            raise TargetError(f"an action must be {self._low.size} finite numbers from -1 to 1, one per motor")
+        moment = self._environment.step(self._low + self._span * (asked + 1.0) / 2.0)
+        self._over = "is over" if moment.last() else ""
         fell = moment.last() and moment.discount == 0.0
         return self._plain(moment.observation), float(moment.reward), fell, moment.last() and not fell, {}
 

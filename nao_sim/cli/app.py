@@ -13,6 +13,7 @@ from nao_sim.errors import NaoSimError
 # command -> module of nao_sim.cli that defines a function, or a Typer of sub-commands, of that name ('-' becomes '_')
 COMMANDS = {
     "check": "check",
+    "convert": "convert",
     "dataset": "dataset",
     "export": "export",
     "film": "film",

@@ -41,20 +41,22 @@ def as_dict(measures: Measures) -> dict[str, Any]:
 
 
 def table_of(rows: list[dict[str, Any]]) -> Table:
-    """Return a table, a row a gesture; rows as :func:`as_dict` with ``gesture`` and ``faults``, or ``refused``."""
+    """Return a table, a row a gesture; rows as :func:`as_dict` with ``gesture`` and ``faults``, or with ``error``."""
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table(box=None, header_style="bold", pad_edge=False)
-    table.add_column("gesture", no_wrap=True)
+    table.add_column("gesture", overflow="fold")
     for heading in _HEADINGS:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("passes", no_wrap=True)
     for row in rows:
-        verdict = "[red]no[/]" if row["faults"] else "[green]ok[/]"
-        cells = [""] * len(_HEADINGS)
+        verdict = "[red]not read[/]" if "error" in row else "[red]no[/]" if row["faults"] else "[green]ok[/]"
+        # What was refused was not played, and nothing is said that was not measured.
+        cells = ["-"] * len(_HEADINGS)
         if "duration_s" in row:
             values = [row["duration_s"], *(row[name]["value"] for name in _EXTREMES)]
             formats = ("{:.1f}", "{:.1f}", "{:.2f}", "{:.2f}", "{:.0f}", "{:.0f}", "{:.2f}")
             cells = [form.format(value) for form, value in zip(formats, values, strict=True)]
-        table.add_row(row["gesture"], *cells, verdict)
+        table.add_row(escape(row["gesture"]), *cells, verdict)
     return table

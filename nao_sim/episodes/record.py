@@ -12,6 +12,7 @@ from nao_sim.episodes.outcome import moving_joints
 from nao_sim.recording.joints import log_balance, log_joints
 from nao_sim.recording.layout import layout
 from nao_sim.recording.narrative import log_decision, log_phases
+from nao_sim.recording.properties import send_properties
 from nao_sim.recording.robot import log_body_poses, log_shells
 from nao_sim.recording.stream import recording
 from nao_sim.recording.video import (
@@ -76,6 +77,20 @@ def _log_evidence(stream: rr.RecordingStream, episode: Episode) -> None:
             log_ellipses(stream, f"evidence/{name}", episode.watched_s, centres, halves)
 
 
+def _properties(episode: Episode) -> dict[str, object]:
+    """What a catalog of many episodes lists and sorts by."""
+    seen, done = episode.recognition, episode.outcome
+    return {
+        "clip": Path(episode.clip.source).name,
+        "seen": seen.label or "",
+        "distance": seen.distance,
+        "answered": episode.answer.gesture or "",
+        "upright": "no" if done.fell else "yes",
+        "tracking_rms_deg": done.tracking_rms_deg,
+        "duration_s": done.duration_s,
+    }
+
+
 def _phases(episode: Episode) -> list[tuple[float, str]]:
     start = episode.watched_s
     phases = [(0.0, "watch"), (start, "imitate" if episode.answer.gesture else "stand")]
@@ -105,6 +120,7 @@ def record_episode(path: Path, episode: Episode, nao: Nao, progress: Callable[[i
     time = np.concatenate([[0.0], episode.watched_s + motion.time])
     still_first = np.concatenate([[0], np.arange(len(motion.time))])
     with recording(path, name, identity, layout(ACTUATED, moving)) as stream:
+        send_properties(stream, "episode", _properties(episode))
         log_shells(stream, nao.model)
         log_phases(stream, _phases(episode))
         text = _decision_text(episode.recognition, episode.answer.reason)

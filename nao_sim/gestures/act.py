@@ -12,6 +12,7 @@ from nao_sim.gestures.gesture import Gesture
 from nao_sim.gestures.key_frames import KeyFrame
 from nao_sim.gestures.preparation import REST, prepare
 from nao_sim.motion import Change, MotionLog, Trajectory, check, perform
+from nao_sim.motion.getting_up import get_up, stands
 from nao_sim.motion.perform import Progress
 from nao_sim.motion.walking import WalkPlan, plan_walk, walk
 from nao_sim.robot import ACTUATED, Nao, posture
@@ -40,8 +41,11 @@ def act(
 ) -> Performance:
     """Perform a gesture from where the robot's set-points are now.
 
+    A robot that does not stand gets up first (:func:`nao_sim.motion.getting_up.get_up`), and the log has both. If it
+    cannot, the gesture is not begun: the log is that of the attempts and ``log.fallen`` is true.
+
     Args:
-        nao: a robot that stands.
+        nao: the robot.
         gesture: what to do.
         speed, amplitude, repetitions: see :func:`nao_sim.gestures.preparation.written`. A walk keeps its own pace and
             is not repeated; its amplitude is how far it goes.
@@ -52,6 +56,22 @@ def act(
         MotionError: a walk further than the engine goes.
         RobotError: the simulation became unstable.
     """
+    if gesture.walk is None:
+        # What cannot be prepared is refused before the robot moves at all.
+        prepare(gesture, speed=speed, amplitude=amplitude, repetitions=repetitions, limits=nao.limits)
+    if stands(nao):
+        return _act(nao, gesture, speed, amplitude, repetitions, progress)
+    rising = get_up(nao, progress=progress)
+    if rising.fallen:
+        return Performance(Trajectory(rising.time, rising.targets), [], rising)
+    done = _act(nao, gesture, speed, amplitude, repetitions, progress)
+    return replace(done, log=_after(rising, done.log))
+
+
+def _act(
+    nao: Nao, gesture: Gesture, speed: float, amplitude: float, repetitions: int | None, progress: Progress | None
+) -> Performance:
+    """Perform a gesture; the robot stands."""
     if gesture.walk is not None:
         return _walk(nao, gesture, speed, amplitude, repetitions, progress)
     prepared = prepare(gesture, _setpoint(nao), speed, amplitude, repetitions, nao.limits)
@@ -59,10 +79,10 @@ def act(
     return Performance(prepared.trajectory, prepared.changes, perform(nao, prepared.trajectory, progress=progress))
 
 
-def motion_of(gesture: Gesture) -> Trajectory | WalkPlan:
-    """Return a gesture's trajectory, or the plan of its walk, from StandInit."""
+def motion_of(gesture: Gesture, limits: str = "thesis") -> Trajectory | WalkPlan:
+    """Return a gesture's trajectory inside a range set, or the plan of its walk, from StandInit."""
     if gesture.walk is None:
-        return gesture.trajectory()
+        return gesture.trajectory(limits=limits)
     return plan_walk(gesture.walk.x, gesture.walk.y, gesture.walk.turn)
 
 

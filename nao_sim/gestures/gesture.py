@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from nao_sim.gestures.key_frames import Cycle, KeyFrame, Walk
+import numpy as np
+
+from nao_sim.gestures.key_frames import LONGEST_S, Cycle, KeyFrame, Walk
 from nao_sim.gestures.preparation import prepare
+from nao_sim.motion.curves import Curve
 from nao_sim.motion.easing import Easing
 from nao_sim.motion.trajectory import Trajectory
 
@@ -29,6 +32,8 @@ class Gesture:
         cycle: the repeated part, or None.
         amplitude_joints: the joints that amplitude scales; empty: all but the hands.
         walk: the displacement of a walking gesture, or None.
+        longest_s: seconds it may last as written, repetitions included.
+        notes: for people: what reading its file took for granted or left out.
     """
 
     name: str
@@ -44,11 +49,21 @@ class Gesture:
     cycle: Cycle | None = None
     amplitude_joints: tuple[str, ...] = ()
     walk: Walk | None = None
+    longest_s: float = LONGEST_S
+    notes: tuple[str, ...] = ()
 
     @property
     def joints(self) -> tuple[str, ...]:
         """Names of the joints that some key frame names, in order of first appearance."""
         return tuple(dict.fromkeys(name for frame in self.key_frames for name in frame.angles_rad))
+
+    def curves(self) -> dict[str, Curve]:
+        """Return the key frames joint by joint; ``rest``, torso, repetitions and follow-through are not in them."""
+        keys: dict[str, list[tuple[float, float]]] = {}
+        for frame in self.key_frames:
+            for name, value in frame.angles_rad.items():
+                keys.setdefault(name, []).append((frame.time_s, value))
+        return {name: Curve(*np.array(rows, dtype=float).T) for name, rows in keys.items()}
 
     @property
     def duration_s(self) -> float | None:

@@ -12,6 +12,15 @@ from nao_sim.motion.easing import Easing
 
 TORSO_KEYS = ("pitch", "roll", "height")
 
+LONGEST_S = 300.0
+"""Seconds that a gesture may last unless it says otherwise: what lasts longer is mostly in another unit of time."""
+
+MOST_REPETITIONS = 100
+"""Of a cycle."""
+
+LATEST_FOLLOW_S = 1.0
+"""Greatest follow-through, seconds."""
+
 
 @dataclass(frozen=True)
 class KeyFrame:
@@ -70,3 +79,5 @@ class Written(Protocol):
     def amplitude_joints(self) -> tuple[str, ...]: ...
     @property
     def walk(self) -> Walk | None: ...
+    @property
+    def longest_s(self) -> float: ...

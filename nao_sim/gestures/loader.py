@@ -33,7 +33,15 @@ from nao_sim.errors import did_you_mean
 from nao_sim.gestures import checks
 from nao_sim.gestures.errors import GestureFileError
 from nao_sim.gestures.gesture import Gesture
-from nao_sim.gestures.key_frames import TORSO_KEYS, Cycle, KeyFrame, Walk
+from nao_sim.gestures.key_frames import (
+    LATEST_FOLLOW_S,
+    LONGEST_S,
+    MOST_REPETITIONS,
+    TORSO_KEYS,
+    Cycle,
+    KeyFrame,
+    Walk,
+)
 from nao_sim.gestures.vocabulary import CLASSES, FAMILIES, KINDS, vocabulary
 from nao_sim.motion.easing import EASINGS
 from nao_sim.motion.limits import HANDS
@@ -43,14 +51,20 @@ _TOP = ("name", *_MEANING, "easing", "follow_through_s", "cycle", "amplitude_joi
 _FRAME = ("time", "angles", "torso", "rest", "mark")
 # A file of more than this is not key frames written by a person.
 _MAX_BYTES = 4_000_000
+# A whole gesture within so many degrees may well be one in radians.
+_MOST_RAD = 3.2
 
 
-def load_toml_gesture(path: str | Path, fit: bool = False) -> Gesture:
+def load_toml_gesture(
+    path: str | Path, fit: bool = False, limits: str = "thesis", longest_s: float = LONGEST_S
+) -> Gesture:
     """Read one gesture file.
 
     Args:
         path: the TOML file.
         fit: leave angles outside their range for fitting to clip, instead of refusing them.
+        limits: the range set that it must keep: ``"thesis"``, ``"v5"`` or ``"envelope"``.
+        longest_s: seconds that it may last.
 
     Raises:
         GestureFileError: the file is missing, unreadable, malformed, or asks for what no NAO has.
@@ -63,8 +77,11 @@ def load_toml_gesture(path: str | Path, fit: bool = False) -> Gesture:
         raise GestureFileError(path, f"name is {name!r}; write a word")
     if ("walk" in table) == ("key_frame" in table):
         raise GestureFileError(path, "a gesture has either [[key_frame]] tables or one [walk] table; write one of them")
-    frames = tuple(_frame(row, index, path, fit) for index, row in enumerate(_frame_tables(table, path)))
+    frames = tuple(
+        _frame(row, index, path, None if fit else limits) for index, row in enumerate(_frame_tables(table, path))
+    )
     checks.increasing([frame.time_s for frame in frames], path)
+    checks.not_too_long(frames[-1].time_s if frames else 0.0, path, longest_s)
     easing = table.get("easing", "minimum_jerk")
     if easing not in EASINGS:
         raise GestureFileError(path, f"easing is {easing!r}; write one of {', '.join(EASINGS)}")
@@ -76,11 +93,28 @@ def load_toml_gesture(path: str | Path, fit: bool = False) -> Gesture:
         **_meaning(name, table, path),
         key_frames=frames,
         easing=easing,
-        follow_through_s=checks.number(table.get("follow_through_s", 0.0), path, "follow_through_s"),
+        follow_through_s=_follow_through(table, path),
         cycle=_cycle(table.get("cycle"), frames, path),
         amplitude_joints=tuple(checks.joint_name(str(joint), path, "amplitude_joints") for joint in joints),
         walk=_walk(table.get("walk"), path),
+        longest_s=longest_s,
+        notes=_notes(frames),
     )
+
+
+def _follow_through(table: Mapping[str, Any], path: Path) -> float:
+    seconds = checks.number(table.get("follow_through_s", 0.0), path, "follow_through_s")
+    if not 0.0 <= seconds <= LATEST_FOLLOW_S:
+        raise GestureFileError(path, f"follow_through_s is {seconds:g}; choose from 0 to {LATEST_FOLLOW_S:g} seconds")
+    return seconds
+
+
+def _notes(frames: tuple[KeyFrame, ...]) -> tuple[str, ...]:
+    """Return a note if every angle would fit a table in radians: degrees are this format's unit."""
+    angles = [abs(value) for frame in frames for name, value in frame.angles_rad.items() if name not in HANDS]
+    if not angles or not 0.0 < max(angles) <= np.deg2rad(_MOST_RAD) or any(frame.torso for frame in frames):
+        return ()
+    return (f"no angle goes beyond ±{np.rad2deg(max(angles)):.2g} degrees; gesture files are in degrees, not radians",)
 
 
 def _parse(path: Path) -> dict[str, Any]:
@@ -90,7 +124,7 @@ def _parse(path: Path) -> dict[str, Any]:
     if path.stat().st_size > _MAX_BYTES:
         raise GestureFileError(path, f"is larger than {_MAX_BYTES // 1_000_000} MB; a gesture is a list of key frames")
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError as error:
         raise GestureFileError(path, f"is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
     except tomllib.TOMLDecodeError as error:
@@ -118,7 +152,7 @@ def _frame_tables(table: Mapping[str, Any], path: Path) -> list[dict[str, Any]]:
     return [_table(row, path, f"key frame {index + 1}") for index, row in enumerate(rows)]
 
 
-def _frame(row: dict[str, Any], index: int, path: Path, fit: bool) -> KeyFrame:
+def _frame(row: dict[str, Any], index: int, path: Path, limits: str | None) -> KeyFrame:
     where = f"key frame {index + 1}"
     _only(row, _FRAME, path, where)
     if "time" not in row:
@@ -129,8 +163,8 @@ def _frame(row: dict[str, Any], index: int, path: Path, fit: bool) -> KeyFrame:
         joint = checks.joint_name(name, path, where)
         asked = checks.number(value, path, f"{name} in {where}")
         angles[joint] = asked if joint in HANDS else float(np.deg2rad(asked))
-    if not fit:
-        checks.inside_range(angles, time_s, path)
+    if limits is not None:
+        angles = checks.inside_range(angles, time_s, path, limits)
     torso = _table(row.get("torso", {}), path, f"torso of {where}")
     _only(torso, TORSO_KEYS, path, f"torso of {where}")
     asked_torso = {key: checks.number(value, path, f"torso {key} in {where}") for key, value in torso.items()}
@@ -164,8 +198,14 @@ def _meaning(name: str, table: Mapping[str, Any], path: Path) -> dict[str, Any]:
     for key, allowed in (("family", FAMILIES), ("kind", KINDS), ("class", CLASSES)):
         if key in table and table[key] not in allowed:
             raise GestureFileError(path, f"{key} is {table[key]!r}; write one of {', '.join(allowed)}")
+    for key in ("title", "mirror"):
+        if key in table and (not isinstance(table[key], str) or not table[key]):
+            raise GestureFileError(path, f"{key} is {table[key]!r}; write words")
+    number = table.get("number")
+    if number is not None and (isinstance(number, bool) or not isinstance(number, int)):
+        raise GestureFileError(path, f"number is {number!r}; write a whole number")
     return {
-        "number": table.get("number"),
+        "number": number,
         "family": table.get("family", "own"),
         "kind": table.get("kind", "linear"),
         "communicative_class": table.get("class", "none"),
@@ -190,8 +230,10 @@ def _cycle(value: object, frames: tuple[KeyFrame, ...], path: Path) -> Cycle | N
         if frames[first].angles_rad.get(joint) != frames[last].angles_rad.get(joint):
             raise GestureFileError(path, f"cycle: {joint} must be the same at '{table['first']}' and '{table['last']}'")
     repetitions = table.get("repetitions", 1)
-    if not isinstance(repetitions, int) or repetitions < 1:
-        raise GestureFileError(path, f"cycle repetitions is {repetitions!r}; write 1 or more")
+    if not isinstance(repetitions, int) or isinstance(repetitions, bool) or not 1 <= repetitions <= MOST_REPETITIONS:
+        raise GestureFileError(
+            path, f"cycle repetitions is {repetitions!r}; write 1 or more, at most {MOST_REPETITIONS}"
+        )
     return Cycle(table["first"], table["last"], repetitions)
 
 

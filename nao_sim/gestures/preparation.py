@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nao_sim.gestures.errors import GestureError
-from nao_sim.gestures.key_frames import TORSO_KEYS, KeyFrame, Written
-from nao_sim.motion.easing import ease
+from nao_sim.gestures.key_frames import LATEST_FOLLOW_S, MOST_REPETITIONS, TORSO_KEYS, KeyFrame, Written
+from nao_sim.gestures.lead_in import lacking_s, later
+from nao_sim.motion.easing import Easing, ease
 from nao_sim.motion.limits import HANDS, Change, clipped, stretched
 from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
 from nao_sim.motion.whole_body import LEG_JOINTS, TorsoPath, plant_feet, standing_torso
@@ -22,7 +23,6 @@ AMPLITUDES = (0.1, 2.0)
 REST = "StandInit"
 # Joints that the gesture does not name come home from wherever the last one left them, within this time.
 _HOMING_S = 1.0
-_SAME_RAD = 1e-3
 # How many joints lie between the shoulder and this one; each follows a little later than the one before.
 _DEPTH = {"ElbowYaw": 1, "ElbowRoll": 1, "WristYaw": 2, "Hand": 2}
 
@@ -83,10 +83,14 @@ def written(
     _between("speed", speed, SPEEDS)
     _between("amplitude", amplitude, AMPLITUDES)
     frames = _repeated(_scaled(_homed(gesture), gesture, amplitude), gesture, repetitions)
+    _not_too_long(gesture, frames)
     frames = [replace(frame, time_s=frame.time_s / speed) for frame in frames]
     first = _start_angles(start)
-    frames = _led_in(frames, first)
     times, targets = _joint_curves(gesture, frames, first, gesture.follow_through_s / speed)
+    lacking = lacking_s(frames, Trajectory(times, targets))
+    if lacking > 0:
+        frames = later(frames, lacking)
+        times, targets = _joint_curves(gesture, frames, first, gesture.follow_through_s / speed)
     if not set(gesture.joints) & set(LEG_JOINTS):
         targets = plant_feet(times, targets, _torso_path(gesture, frames, times))
     elif any(frame.torso for frame in frames):
@@ -99,12 +103,17 @@ def _between(what: str, value: float, allowed: tuple[float, float]) -> None:
         raise GestureError(f"{what} is {value:g}; choose one from {allowed[0]:g} to {allowed[1]:g}")
 
 
-def _led_in(frames: list[KeyFrame], start: NDArray[np.float64]) -> list[KeyFrame]:
-    """Return the key frames later, if the first is at time 0 and elsewhere than the robot, so that it can get there."""
-    asked = frames[0].angles_rad if frames[0].time_s < CONTROL_PERIOD else {}
-    if all(abs(value - start[ACTUATED.index(name)]) < _SAME_RAD for name, value in asked.items()):
-        return frames
-    return [replace(frame, time_s=frame.time_s + _HOMING_S) for frame in frames]
+def _not_too_long(gesture: Written, frames: list[KeyFrame]) -> None:
+    """Refuse what would take the memory of a motion without end."""
+    if not 0.0 <= gesture.follow_through_s <= LATEST_FOLLOW_S:
+        raise GestureError(
+            f"'{gesture.name}': follow_through_s is {gesture.follow_through_s:g}; choose from 0 to {LATEST_FOLLOW_S:g}"
+        )
+    if not frames[-1].time_s <= gesture.longest_s:
+        raise GestureError(
+            f"'{gesture.name}' lasts {frames[-1].time_s:g} s and may last {gesture.longest_s:g} s; "
+            "shorten it, or raise its longest_s"
+        )
 
 
 def _start_angles(start: str | Mapping[str, float]) -> NDArray[np.float64]:
@@ -162,8 +171,8 @@ def _repeated(frames: list[KeyFrame], gesture: Written, repetitions: int | None)
             raise GestureError(f"'{gesture.name}' has no repeated part; leave the repetitions out")
         return frames
     rounds = gesture.cycle.repetitions if repetitions is None else repetitions
-    if not 1 <= rounds <= 100:
-        raise GestureError(f"{rounds} repetitions; choose from 1 to 100")
+    if not 1 <= rounds <= MOST_REPETITIONS:
+        raise GestureError(f"{rounds} repetitions; choose from 1 to {MOST_REPETITIONS}")
     first, last = _marked(frames, gesture.cycle.first), _marked(frames, gesture.cycle.last)
     period = frames[last].time_s - frames[first].time_s
     out = frames[: last + 1]
@@ -180,21 +189,33 @@ def _joint_curves(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return times (n,) and targets (n, 25) of all joints, legs as in StandInit unless the gesture names them."""
     delays = {name: follow_s * _DEPTH.get(name[1:], 0) for name in gesture.joints}
+    home = posture(REST)
+    away = [name for column, name in enumerate(ACTUATED) if abs(start[column] - home[name]) > 1e-9]
     end = max(frames[-1].time_s, CONTROL_PERIOD) + max(delays.values(), default=0.0)
+    if any(name not in delays for name in away):
+        end = max(end, _HOMING_S)
     count = int(np.ceil(end / CONTROL_PERIOD - 1e-9)) + 1
     times = np.asarray(np.arange(count) * CONTROL_PERIOD, dtype=np.float64)
-    home = posture(REST)
     targets = np.empty((len(times), len(ACTUATED)))
     for column, name in enumerate(ACTUATED):
         keys = [(0.0, start[column])]
         for frame in frames:
             if name in frame.angles_rad:
                 _put(keys, frame.time_s + (delays[name] if frame.time_s > 0 else 0.0), frame.angles_rad[name])
-        if name not in delays and abs(start[column] - home[name]) > 1e-9:
-            _put(keys, min(_HOMING_S, end), home[name])
+        if name not in delays and name in away:
+            _put(keys, _HOMING_S, home[name])
         key_times, values = (np.array(row) for row in zip(*keys, strict=True))
-        targets[:, column] = ease(key_times, values, times, gesture.easing)
+        easing: Easing = gesture.easing if name in delays else "minimum_jerk"
+        targets[:, column] = ease(key_times, values, times, easing)
+        if easing == "linear" and len(keys) > 1 and not _named_at_once(name, frames):
+            # Straight lines are the file's own; the way to its first pose is ours, and smooth.
+            before = times < key_times[1]
+            targets[before, column] = ease(key_times[:2], values[:2], times[before], "minimum_jerk")
     return times, targets
+
+
+def _named_at_once(name: str, frames: list[KeyFrame]) -> bool:
+    return frames[0].time_s == 0.0 and name in frames[0].angles_rad
 
 
 def _put(keys: list[tuple[float, float]], time: float, value: float) -> None:

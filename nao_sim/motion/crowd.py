@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import mujoco
 import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from nao_sim.robot.sensors import FSR
 
 Array = NDArray[np.float64]
 
+_BAD_STATE = slice(int(mujoco.mjtWarning.mjWARN_BADQPOS), int(mujoco.mjtWarning.mjWARN_BADQACC) + 1)
 _PUSH_S = 0.04  # a push takes so long
 # Down: the torso leans beyond 85 degrees, or is lower than any motion on the feet brings it.
 _DOWN_COS, _DOWN_HEIGHT_M = np.cos(np.deg2rad(85.0)), 0.17
@@ -34,7 +36,10 @@ _SOLE_REACH_M = 0.12
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What became of n trials: when each fell (s, NaN: it stayed up), and its greatest lean beyond the plan (rad)."""
+    """What became of n trials: when each fell (s, NaN: it stayed up), and its greatest lean beyond the plan (rad).
+
+    A trial whose simulation became unstable counts as fallen when it did.
+    """
 
     fell_at: Array
     worst_lean: Array
@@ -51,10 +56,11 @@ class Crowd:
     Args:
         trials: one robot each.
         threads: of the batch; 0 for all cores.
+        limits: the range set that the robots keep.
     """
 
-    def __init__(self, trials: Trials, threads: int = 0) -> None:
-        with Nao(fingers=False, shells=False) as nao:
+    def __init__(self, trials: Trials, threads: int = 0, limits: str = "thesis") -> None:
+        with Nao(limits, fingers=False, shells=False) as nao:
             self.model, start = nao.model, nao.data.qpos.copy()
         self.trials = trials
         self.batch = Batch(self.model, len(trials), threads)
@@ -63,8 +69,8 @@ class Crowd:
         self._set_models()
         self._place(start)
         table = joint_table().select(ACTUATED)
-        self._low, self._high = table.range_rad().T
-        self._layer = CommandLayer("thesis", CONTROL_PERIOD)
+        self._low, self._high = table.range_rad(limits).T
+        self._layer = CommandLayer(limits, CONTROL_PERIOD)
         self._setpoint = np.tile(start[self._qpos], (len(trials), 1))
         self._travel = np.zeros_like(self._setpoint)
         self._felt = self._setpoint.copy()
@@ -106,11 +112,18 @@ class Crowd:
         """Return each gyrometer's x and y, rad/s, shape (n, 2)."""
         return self._gyro
 
+    def lost(self) -> NDArray[np.bool_]:
+        """Return whose simulation has become unstable, shape (n,).
+
+        MuJoCo sets such a one back to its start, where it stands and goes on; only its warnings tell.
+        """
+        return self.batch.warning[:, _BAD_STATE, 1].any(axis=1)
+
     def down(self) -> NDArray[np.bool_]:
-        """Return which robots are down, shape (n,)."""
+        """Return which robots are down, or lost, shape (n,)."""
         quat = self._quat[:, self.torso]
         upright = 1 - 2 * (quat[:, 1] ** 2 + quat[:, 2] ** 2)
-        return (upright < _DOWN_COS) | (self._place_now[:, self.torso, 2] < _DOWN_HEIGHT_M)
+        return (upright < _DOWN_COS) | (self._place_now[:, self.torso, 2] < _DOWN_HEIGHT_M) | self.lost()
 
     def push(self, share: float, duration: float) -> None:
         """Apply the pushes that are on at this share of a motion of this many seconds."""
@@ -164,6 +177,7 @@ def play_all(
     gains: Gains | None = None,
     threads: int = 0,
     progress: Callable[[int, int], None] | None = None,
+    limits: str = "thesis",
 ) -> Outcome:
     """Play a motion in every trial.
 
@@ -173,15 +187,16 @@ def play_all(
         balance, gains: of a trajectory's feedback.
         threads: of the batch; 0 for all cores. The outcome does not depend on it.
         progress: called with (periods done, periods in all).
+        limits: the range set that the robots keep.
     """
     player = player_of(motion, len(trials), balance, gains)
-    return _play(Crowd(trials, threads), player, progress, None)
+    return _play(Crowd(trials, threads, limits), player, progress, None)
 
 
-def replay(motion: Motion, trials: Trials) -> MotionLog:
+def replay(motion: Motion, trials: Trials, limits: str = "thesis") -> MotionLog:
     """Play the first trial alone and return its log."""
     rows: list[dict[str, Any]] = []
-    outcome = _play(Crowd(trials, 1), player_of(motion, 1), None, rows)
+    outcome = _play(Crowd(trials, 1, limits), player_of(motion, 1), None, rows)
     times = np.asarray(CONTROL_PERIOD * np.arange(len(rows)), dtype=np.float64)
     columns: dict[str, Any] = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     fell_at = None if outcome.up[0] else float(outcome.fell_at[0])
@@ -204,7 +219,9 @@ def _play(
         crowd.step(commands)
         newly = crowd.down() & np.isnan(fell_at)
         fell_at[newly] = (step + 1) * CONTROL_PERIOD
-        worst = np.maximum(worst, np.abs(crowd.lean() - player.leans[step + 1]).max(axis=1))
+        # What was set back to its start no longer leans.
+        lean = np.abs(crowd.lean() - player.leans[step + 1]).max(axis=1)
+        worst = np.where(crowd.lost(), worst, np.maximum(worst, lean))
         if rows is not None:
             rows.append(crowd.snapshot(player.planned[step + 1]))
         if progress is not None:

@@ -1,14 +1,16 @@
 """How a joint gets from key frame to key frame.
 
-Both easings pass through every key frame and come to rest at every turning point, because their slopes are those of
-the monotone cubic of Fritsch and Carlson (1980): between two key frames a joint never goes beyond the two values, so
-key frames inside the range make a motion inside the range.
+Every easing passes through every key frame, and between two key frames a joint never goes beyond the two values, so
+key frames inside the range make a motion inside the range. The two smooth ones come to rest at every turning point,
+because their slopes are those of the monotone cubic of Fritsch and Carlson (1980).
 
 ``minimum_jerk``
     Quintic pieces with zero acceleration at the key frames. From rest to rest this is the minimum-jerk movement of
     Flash and Hogan (1985), which people's arm movements resemble.
 ``cubic``
     Cubic pieces. They turn round at full acceleration, as a waving hand or a nodding head does, instead of dwelling.
+``linear``
+    Straight lines, as Webots, NAOqi's ``angleInterpolation`` and recordings join their samples.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BPoly, CubicHermiteSpline, PchipInterpolator
 
-Easing = Literal["minimum_jerk", "cubic"]
+Easing = Literal["minimum_jerk", "cubic", "linear"]
 EASINGS: tuple[str, ...] = get_args(Easing)
 
 
@@ -40,6 +42,8 @@ def ease(
     at = np.clip(at, key_times[0], key_times[-1])
     if len(key_times) == 1:
         return np.full(len(at), values[0])
+    if easing == "linear":
+        return np.interp(at, key_times, values)
     slopes = _rest_at_the_ends(key_times, values)
     if easing == "cubic":
         curve = CubicHermiteSpline(key_times, values, slopes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nao_sim.errors import NaoSimError
+from nao_sim.robot.tolerance import tell_apart
 
 
 class MotionError(NaoSimError, ValueError):
@@ -18,13 +19,27 @@ class RangeExceeded(MotionError):
         asked: the target, degrees (fraction for a hand).
         bounds: lower and upper bound in the same unit.
         unit: ``"deg"`` or ``"fraction"``.
+        limits: the range set that has these bounds.
+        allowed_by: other range sets that allow it.
     """
 
-    def __init__(self, joint: str, time_s: float, asked: float, bounds: tuple[float, float], unit: str = "deg") -> None:
+    def __init__(
+        self,
+        joint: str,
+        time_s: float,
+        asked: float,
+        bounds: tuple[float, float],
+        unit: str = "deg",
+        limits: str = "thesis",
+        allowed_by: tuple[str, ...] = (),
+    ) -> None:
         self.joint, self.time_s, self.asked, self.bounds, self.unit = joint, time_s, asked, bounds, unit
+        self.limits, self.allowed_by = limits, allowed_by
+        value, low, high = tell_apart(asked, *bounds)
+        other = f", pass --limits {allowed_by[0]}, which allows it," if allowed_by else ""
         super().__init__(
-            f"{joint} is asked for {asked:.2f} {unit} at {time_s:.2f} s, its range is "
-            f"{bounds[0]:.2f} .. {bounds[1]:.2f} {unit}; keep inside it or pass --fit"
+            f"{joint} is asked for {value} {unit} at {time_s:.2f} s, its '{limits}' range is {low} .. {high} {unit}; "
+            f"keep inside it{other} or pass --fit"
         )
 
 

@@ -11,9 +11,10 @@ from scipy.ndimage import maximum_filter1d, uniform_filter1d
 from nao_sim.motion.errors import RangeExceeded, SpeedExceeded
 from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
 from nao_sim.robot.joints import ACTUATED, joint_table
+from nao_sim.robot.tolerance import SOFTNESS_RAD, sets_allowing, tell_apart
 
 HANDS = ("LHand", "RHand")
-# A trajectory made to be just inside a bound must not fail its own check on rounding.
+# A trajectory made to be just as fast as its motors must not fail its own check on rounding.
 TOLERANCE = 1e-6
 # Slowing down and speeding up again is spread over this many control periods, so that it is not a jolt.
 _BLEND_PERIODS = 15
@@ -37,7 +38,14 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Change:
-    """One thing that fitting changed: a joint clipped to its range, or time added to a stretch of the motion."""
+    """One thing that fitting changed: a joint clipped to its range, or time added to a stretch of the motion.
+
+    Attributes:
+        joint, time_s: whose and when it is worst, seconds.
+        asked, bound: what the motion asked for and what the joint does: degrees, degrees a second, degrees a second
+            squared (hands: fractions).
+        what: ``"angle"``, ``"speed"`` or ``"acceleration"``; the last two got more time.
+    """
 
     joint: str
     time_s: float
@@ -45,8 +53,24 @@ class Change:
     bound: float
     what: str
 
+    @property
+    def takes_time(self) -> bool:
+        """Whether the motion takes more time for it; otherwise it goes less far."""
+        return self.what != "angle"
+
+    @property
+    def unit(self) -> str:
+        """The unit of ``asked`` and ``bound``."""
+        unit, _ = unit_of(self.joint)
+        if not self.takes_time:
+            return unit
+        unit = "1" if unit == "fraction" else unit
+        return f"{unit}/s" if self.what == "speed" else f"{unit}/s²"
+
     def __str__(self) -> str:
-        return f"{self.joint} at {self.time_s:.2f} s: {self.what} {self.asked:.2f} → {self.bound:.2f}"
+        asked, bound, _ = tell_apart(self.asked, self.bound, self.bound)
+        how = f"{self.what} {asked} → {bound} {self.unit}" + (", takes more time" if self.takes_time else "")
+        return f"{self.joint} at {self.time_s:.2f} s: {how}"
 
 
 def bounds(limits: str = "thesis") -> Bounds:
@@ -74,7 +98,7 @@ def check(trajectory: Trajectory, limits: str = "thesis") -> None:
     """
     bound = bounds(limits)
     excess = np.maximum(bound.range_rad[:, 0] - trajectory.targets, trajectory.targets - bound.range_rad[:, 1])
-    if excess.max() > TOLERANCE:
+    if excess.max() > SOFTNESS_RAD:
         row, column = np.unravel_index(np.argmax(excess), excess.shape)
         unit, scale = unit_of(trajectory.names[column])
         low, high = bound.range_rad[column] * scale
@@ -84,6 +108,12 @@ def check(trajectory: Trajectory, limits: str = "thesis") -> None:
             float(trajectory.targets[row, column] * scale),
             (float(low), float(high)),
             unit,
+            limits,
+            tuple(
+                name
+                for name in sets_allowing(trajectory.names[column], float(trajectory.targets[row, column]))
+                if name != limits
+            ),
         )
     if len(trajectory.times) < 2:
         return
@@ -104,7 +134,7 @@ def clipped(trajectory: Trajectory, limits: str = "thesis") -> tuple[Trajectory,
     for column, name in enumerate(trajectory.names):
         excess = np.abs(trajectory.targets[:, column] - inside[:, column])
         row = int(np.argmax(excess))
-        if excess[row] > TOLERANCE:
+        if excess[row] > SOFTNESS_RAD:
             _, scale = unit_of(name)
             asked, got = trajectory.targets[row, column] * scale, inside[row, column] * scale
             changes.append(Change(name, float(trajectory.times[row]), float(asked), float(got), "angle"))
@@ -128,13 +158,23 @@ def stretched(trajectory: Trajectory, limits: str = "thesis", share: float = 0.9
     if not changes:
         return even, []
     for _ in range(_MOST_PASSES):
-        ratio = even.speeds() / (share * bound.speed)
-        # Time stretched by s divides speeds by s and accelerations by its square.
-        ratio = np.maximum(ratio, np.sqrt(_accelerations(even) / bound.acceleration))
+        ratio = asked_over_able(even, share)
         if ratio.max(initial=0.0) <= 1.0 + TOLERANCE:
             break
         even = _dilated(even, ratio.max(axis=1))
     return even, changes
+
+
+def asked_over_able(even: Trajectory, share: float = 0.98) -> NDArray[np.float64]:
+    """Return by how much each interval would have to be longer for its motors, shape (n - 1, 25); up to 1: not at all.
+
+    Args:
+        even: a motion sampled at the control period.
+        share: of the motors' nominal speed that may be used.
+    """
+    bound = bounds()
+    # Time stretched by s divides speeds by s and accelerations by its square.
+    return np.maximum(even.speeds() / (share * bound.speed), np.sqrt(_accelerations(even) / bound.acceleration))
 
 
 def _accelerations(even: Trajectory) -> NDArray[np.float64]:

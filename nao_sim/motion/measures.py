@@ -14,6 +14,7 @@ from nao_sim.motion.self_distance import nearest_self_distance
 from nao_sim.motion.support import com_margins
 from nao_sim.motion.trajectory import Trajectory
 from nao_sim.robot import ACTUATED, joint_table
+from nao_sim.robot.tolerance import on_limits
 
 _ANGLES = [index for index, name in enumerate(ACTUATED) if name not in HANDS]
 
@@ -92,25 +93,28 @@ def _fault(name: str, extreme: Extreme, side: str, bound: float) -> str:
     return f"{name} {extreme.value:.2f} is {side} {bound:g} ({extreme.where}, {extreme.time_s:.2f} s)"
 
 
-def measure(model: mujoco.MjModel, trajectory: Trajectory, log: MotionLog, limits: str = "thesis") -> Measures:
+def measure(
+    model: mujoco.MjModel, trajectory: Trajectory, log: MotionLog, limits: str = "thesis", prefix: str | None = None
+) -> Measures:
     """Measure a motion from what was asked and what was logged.
 
     Args:
         model: the model that made the log.
         trajectory: what was asked.
         log: what happened.
-        limits: ``"thesis"`` or ``"v5"``.
+        limits: the limit set, as of :func:`nao_sim.motion.limits.bounds`.
+        prefix: which robot, where the model has several.
     """
     bound = bounds(limits)
     low, high = bound.range_rad.T
     stall = np.array([joint.stall_torque for joint in joint_table().select(ACTUATED).joints])
-    margin = np.minimum(trajectory.targets - low, high - trajectory.targets)[:, _ANGLES]
+    targets = on_limits(trajectory.targets, low, high)
+    margin = np.minimum(targets - low, high - targets)[:, _ANGLES]
     errors = (log.angles - log.targets)[:, _ANGLES]
     rms = np.sqrt((errors**2).mean(axis=0))
-    distance, pair, when = nearest_self_distance(model, log)
-    com = com_margins(model, log)
+    distance, pair, when = nearest_self_distance(model, log, prefix)
+    com = com_margins(model, log, prefix)
     worst_com = int(np.argmin(com))
-    targets = trajectory.targets
     return Measures(
         duration_s=trajectory.duration,
         range_margin_deg=_extreme(np.rad2deg(-margin), trajectory.times, _ANGLES, -1.0),

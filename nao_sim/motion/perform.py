@@ -34,7 +34,7 @@ class MotionLog:
         torso_pose: position m and orientation w, x, y, z in the world, shape (m, 7).
         body_pose: the same of every body of the model, shape (m, nbody, 7).
         contacts: foot force sensors, N, shape (m, 8), order of :data:`nao_sim.robot.sensors.FSR`.
-        fallen: down at the end or on the way.
+        fallen: down at the end or on the way; who lies from the beginning is.
         fell_at: seconds, or None.
         names: columns.
     """
@@ -69,7 +69,7 @@ class Recorder:
     def add(self, targets: Array, commands: Array) -> None:
         """Take down this moment: what was meant and what was sent, rad, shape (25,), and what the body does."""
         nao = self.nao
-        if self.fell_at is None and nao.fallen:
+        if self.fell_at is None and (nao.fallen or nao.lies):
             self.fell_at = nao.time - self.start
         bodies = np.concatenate([nao.data.xpos, nao.data.xquat], axis=1)
         moment = np.array(nao.time - self.start)
@@ -116,14 +116,13 @@ def perform(
     leans = planned_lean(plan)
     low, high = joint_table().select(ACTUATED).range_rad(nao.limits).T
     feedback = Balance()
-    gyro = nao.data.sensor("Gyrometer").data
     recorder = Recorder(nao)
     recorder.add(plan[0], nao.setpoint)
     for step in range(steps):
         command = ahead[step]
         if balance:
             lean = lean_of(nao.torso_pose[None, 3:])
-            command = np.clip(command + feedback.correct(lean, gyro[None, :2], leans[step])[0], low, high)
+            command = np.clip(command + feedback.correct(lean, nao.gyro[None, :2], leans[step])[0], low, high)
         nao.set_targets(command)
         nao.step()
         recorder.add(plan[step + 1], nao.setpoint)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nao_sim.motion.perform import MotionLog
+from nao_sim.robot.wiring import find_robot
 
 # Parts further apart than this are not looked at closely, metres.
 _FAR_M = 0.25
@@ -14,10 +15,9 @@ _FAR_M = 0.25
 _STRIDE = 3
 
 
-def touching_pairs(model: mujoco.MjModel) -> NDArray[np.int64]:
+def touching_pairs(model: mujoco.MjModel, prefix: str | None = None) -> NDArray[np.int64]:
     """Return the pairs of geoms of the robot that could touch, shape (p, 2): what MuJoCo itself would collide."""
-    torso = model.body("torso").id
-    robot = [geom for geom in range(model.ngeom) if model.body_rootid[model.geom_bodyid[geom]] == torso]
+    robot = np.flatnonzero(find_robot(model, prefix).geoms).tolist()
     excluded = set(model.exclude_signature.tolist())
     pairs = [
         (first, second)
@@ -40,14 +40,15 @@ def _collide(model: mujoco.MjModel, first: int, second: int, excluded: set[int])
     return bool(parents[0] != welded[two] and parents[1] != welded[one])
 
 
-def nearest_self_distance(model: mujoco.MjModel, log: MotionLog) -> tuple[float, str, float]:
+def nearest_self_distance(model: mujoco.MjModel, log: MotionLog, prefix: str | None = None) -> tuple[float, str, float]:
     """Return the least distance in m between two parts, their names, and when (s).
 
     Args:
         model: the model that made the log.
         log: the motion; body poses are taken from it.
+        prefix: which robot, where the model has several.
     """
-    pairs = touching_pairs(model)
+    pairs = touching_pairs(model, prefix)
     data = mujoco.MjData(model)
     reach = model.geom_rbound
     best, best_pair, best_time = _FAR_M, (-1, -1), 0.0

@@ -63,6 +63,7 @@ def stress(
     sizes: Mapping[str, float] | None = None,
     threads: int = 0,
     progress: Progress | None = None,
+    limits: str = "thesis",
 ) -> StressReport:
     """Play a motion in many randomised trials.
 
@@ -74,12 +75,13 @@ def stress(
         sweep: also look for the factor that breaks the motion first.
         threads: 0 for all cores; the result does not depend on it.
         progress: called with (stage, done, total).
+        limits: the range set that the robots keep: ``"thesis"``, ``"v5"`` or ``"envelope"``.
     """
     nbody = _nbody()
     outcomes = []
     for first in range(0, trials, _CHUNK):
         chosen = range(first, min(first + _CHUNK, trials))
-        outcomes.append(play_all(motion, draw_trials(seed, chosen, nbody, sizes), threads=threads))
+        outcomes.append(play_all(motion, draw_trials(seed, chosen, nbody, sizes), threads=threads, limits=limits))
         if progress is not None:
             progress("trials", chosen.stop, trials)
     outcome = Outcome(*(np.concatenate([getattr(o, name) for o in outcomes]) for name in ("fell_at", "worst_lean")))
@@ -92,13 +94,15 @@ def stress(
         fell=tuple(int(index) for index in fell),
         fell_at_s=tuple(float(at) for at in outcome.fell_at[fell]),
         lean_deg=(float(median), float(high)),
-        breaking_size=_sweep(motion, seed, nbody, threads, progress) if sweep else {},
+        breaking_size=_sweep(motion, seed, nbody, threads, progress, limits) if sweep else {},
     )
 
 
-def replay_trial(motion: Motion, seed: int, index: int, sizes: Mapping[str, float] | None = None) -> MotionLog:
+def replay_trial(
+    motion: Motion, seed: int, index: int, sizes: Mapping[str, float] | None = None, limits: str = "thesis"
+) -> MotionLog:
     """Play one trial of a stress test again and return its log."""
-    return replay(motion, draw_trials(seed, [index], _nbody(), sizes))
+    return replay(motion, draw_trials(seed, [index], _nbody(), sizes), limits)
 
 
 def describe_trial(seed: int, index: int) -> dict[str, float | list[float]]:
@@ -123,13 +127,15 @@ def _rounded(values: Sequence[float] | np.ndarray) -> list[float]:
     return [round(float(value), 2) for value in values]
 
 
-def _sweep(motion: Motion, seed: int, nbody: int, threads: int, progress: Progress | None) -> dict[str, float | None]:
+def _sweep(
+    motion: Motion, seed: int, nbody: int, threads: int, progress: Progress | None, limits: str
+) -> dict[str, float | None]:
     """Return each factor's breaking size; sizes grow until one factor breaks the motion, the rest are then stronger."""
     found: dict[str, float | None] = dict.fromkeys(FACTORS)
     for done, size in enumerate(SWEEP_SIZES):
         for factor in FACTORS:
             trials = draw_trials(seed, range(SWEEP_TRIALS), nbody, {factor: size})
-            if play_all(motion, trials, threads=threads).up.mean() <= 0.5:
+            if play_all(motion, trials, threads=threads, limits=limits).up.mean() <= 0.5:
                 found[factor] = size
         if progress is not None:
             progress("looking for the weakest factor", done + 1, len(SWEEP_SIZES))

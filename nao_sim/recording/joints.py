@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import column
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -27,8 +27,7 @@ def _series(stream: rr.RecordingStream, path: str, time: np.ndarray, values: np.
     colour, width = _STYLE.get(key, (None, 1.5))
     style = rr.SeriesLines(names=[name], widths=[width], colors=None if colour is None else [colour])
     stream.log(path, style, static=True)
-    index = [rr.TimeColumn(TIMELINE, duration=time)]
-    stream.send_columns(path, indexes=index, columns=rr.Scalars.columns(scalars=values))
+    stream.send_columns(path, indexes=column(time), columns=rr.Scalars.columns(scalars=values))
 
 
 def in_display_units(names: Sequence[str], values: np.ndarray) -> np.ndarray:

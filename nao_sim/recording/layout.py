@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import TIMELINE
 from nao_sim.recording.video import VIDEO
 
 if TYPE_CHECKING:

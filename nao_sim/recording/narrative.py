@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import moment
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -31,9 +31,8 @@ def log_phases(stream: rr.RecordingStream, phases: Sequence[tuple[float, str]]) 
     labels, colours = zip(*PHASES.values(), strict=True)
     stream.log("phase", rr.StateConfiguration(values=list(PHASES), labels=labels, colors=colours), static=True)
     for start, phase in phases:
-        stream.set_time(TIMELINE, duration=start)
-        stream.log("phase", rr.StateChange(state=phase))
-    stream.reset_time()
+        with moment(stream, start):
+            stream.log("phase", rr.StateChange(state=phase))
 
 
 def log_decision(stream: rr.RecordingStream, before: str, decided_at: float, decision: str) -> None:
@@ -41,6 +40,5 @@ def log_decision(stream: rr.RecordingStream, before: str, decided_at: float, dec
     import rerun as rr
 
     for t, text in ((0.0, before), (decided_at, decision)):
-        stream.set_time(TIMELINE, duration=t)
-        stream.log("decision", rr.TextDocument(text, media_type=rr.MediaType.MARKDOWN))
-    stream.reset_time()
+        with moment(stream, t):
+            stream.log("decision", rr.TextDocument(text, media_type=rr.MediaType.MARKDOWN))

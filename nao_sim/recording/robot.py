@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import column
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -16,6 +16,13 @@ ROBOT = "world/robot"
 
 # MuJoCo draws groups 0-2 by default; collision geometry lives in higher groups.
 _VISIBLE_GROUPS = 3
+
+
+def _entity(model: mujoco.MjModel, body: int) -> str:
+    """Return the entity of a body; a scene's bodies may be called anything, or nothing."""
+    import rerun as rr
+
+    return f"{ROBOT}/{rr.escape_entity_path_part(model.body(body).name or f'body_{body}')}"
 
 
 def _rgba(model: mujoco.MjModel, geom: int) -> np.ndarray:
@@ -92,7 +99,7 @@ def log_shells(stream: rr.RecordingStream, model: mujoco.MjModel) -> None:
             is_mesh = model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH
             shape = _mesh(model, geom) if is_mesh else _primitive(model, geom)
             if shape is not None:
-                stream.log(f"{ROBOT}/{model.body(body).name}/shell_{index}", shape, static=True)
+                stream.log(f"{_entity(model, body)}/shell_{index}", shape, static=True)
 
 
 def log_body_poses(stream: rr.RecordingStream, model: mujoco.MjModel, time: np.ndarray, pose: np.ndarray) -> None:
@@ -106,7 +113,7 @@ def log_body_poses(stream: rr.RecordingStream, model: mujoco.MjModel, time: np.n
     """
     import rerun as rr
 
-    index = [rr.TimeColumn(TIMELINE, duration=time)]
+    index = column(time)
     for body in range(1, model.nbody):
         columns = rr.Transform3D.columns(translation=pose[:, body, :3], quaternion=pose[:, body, [4, 5, 6, 3]])
-        stream.send_columns(f"{ROBOT}/{model.body(body).name}", indexes=index, columns=columns)
+        stream.send_columns(_entity(model, body), indexes=index, columns=columns)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import cv2
 import numpy as np
 
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import column, moment
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -56,7 +56,7 @@ def log_frames(
 
     def send() -> None:
         columns = rr.EncodedImage.columns(blob=blobs, media_type=["image/jpeg"] * len(blobs))
-        stream.send_columns(f"{VIDEO}/frame", indexes=[rr.TimeColumn(TIMELINE, duration=times)], columns=columns)
+        stream.send_columns(f"{VIDEO}/frame", indexes=column(times), columns=columns)
 
     scale = 1.0
     for time, frame in frames:
@@ -89,10 +89,9 @@ def log_boxes(stream: rr.RecordingStream, time: np.ndarray, boxes: Sequence[np.n
     import rerun as rr
 
     for t, box in zip(time, boxes, strict=True):
-        stream.set_time(TIMELINE, duration=float(t))
         box = np.asarray(box, dtype=float).reshape(-1, 4)
-        stream.log(f"{VIDEO}/flow", rr.Boxes2D(mins=box[:, :2], sizes=box[:, 2:], colors=_GREEN, radii=1.0))
-    stream.reset_time()
+        with moment(stream, t):
+            stream.log(f"{VIDEO}/flow", rr.Boxes2D(mins=box[:, :2], sizes=box[:, 2:], colors=_GREEN, radii=1.0))
 
 
 def log_centroid_path(stream: rr.RecordingStream, time: np.ndarray, points: np.ndarray) -> None:
@@ -106,11 +105,10 @@ def log_centroid_path(stream: rr.RecordingStream, time: np.ndarray, points: np.n
     import rerun as rr
 
     for i, t in enumerate(time):
-        stream.set_time(TIMELINE, duration=float(t))
-        stream.log(f"{VIDEO}/centroid", rr.Points2D(points[i : i + 1], colors=_YELLOW, radii=3.0))
-        if i:
-            stream.log(f"{VIDEO}/centroid_path", rr.LineStrips2D([points[: i + 1]], colors=_YELLOW, radii=0.8))
-    stream.reset_time()
+        with moment(stream, t):
+            stream.log(f"{VIDEO}/centroid", rr.Points2D(points[i : i + 1], colors=_YELLOW, radii=3.0))
+            if i:
+                stream.log(f"{VIDEO}/centroid_path", rr.LineStrips2D([points[: i + 1]], colors=_YELLOW, radii=0.8))
 
 
 def log_ellipses(
@@ -127,18 +125,15 @@ def log_ellipses(
     """
     import rerun as rr
 
-    stream.set_time(TIMELINE, duration=t)
-    stream.log(
-        f"{entity}/ellipses", rr.Ellipses2D(half_sizes=half_sizes, centers=centres, colors=_WHITE, line_radii=1.5)
-    )
-    stream.reset_time()
+    ellipses = rr.Ellipses2D(half_sizes=half_sizes, centers=centres, colors=_WHITE, line_radii=1.5)
+    with moment(stream, t):
+        stream.log(f"{entity}/ellipses", ellipses)
 
 
 def log_picture(stream: rr.RecordingStream, entity: str, t: float, image: np.ndarray) -> None:
     """Log one picture (BGR or grey, uint8) of evidence at a moment."""
     import rerun as rr
 
-    stream.set_time(TIMELINE, duration=t)
     blob = cv2.imencode(".png", image)[1].tobytes()
-    stream.log(f"{entity}/picture", rr.EncodedImage(contents=blob, media_type="image/png"))
-    stream.reset_time()
+    with moment(stream, t):
+        stream.log(f"{entity}/picture", rr.EncodedImage(contents=blob, media_type="image/png"))

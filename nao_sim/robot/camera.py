@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import atexit
 import weakref
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from nao_sim.robot.canvas import Canvas
 from nao_sim.robot.errors import RenderError, UnknownNameError
+from nao_sim.robot.wiring import Wiring
 
 WIDTH_PX, HEIGHT_PX = 640, 480
 """The robot's cameras (thesis app. 1)."""
@@ -17,15 +19,20 @@ WIDTH_PX, HEIGHT_PX = 640, 480
 RATE_HZ = 30.0
 """Their image rate."""
 
+_CAMERA = mujoco.mjtObj.mjOBJ_CAMERA
 _HINT = "set MUJOCO_GL=egl (libegl1 libgl1-mesa-dri) or MUJOCO_GL=osmesa (libosmesa6)"
 
 
 class Cameras:
-    """Renders the cameras of one model; each size's OpenGL context is made at its first picture."""
+    """Renders the cameras of one robot's scene; each size's OpenGL context is made at its first picture."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
-        self._model = model
+    def __init__(self, wiring: Wiring) -> None:
+        self._model, self._wiring = wiring.model, wiring
         self._canvases: dict[tuple[int, int, bool], Canvas] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        # An OpenGL context belongs to its process; a copy makes its own.
+        return self.__dict__ | {"_canvases": {}}
 
     @property
     def names(self) -> list[str]:
@@ -43,12 +50,13 @@ class Cameras:
         return self._canvases[key].draw(data, view)
 
     def fixed(self, name: str) -> mujoco.MjvCamera:
-        """Return the model's camera of that name.
+        """Return the robot's own camera of that name, or else the scene's.
 
         Raises:
             UnknownNameError: no such camera; the message names the nearest.
         """
-        number = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_CAMERA, name)
+        ids = [mujoco.mj_name2id(self._model, _CAMERA, known) for known in (self._wiring.named(name), name)]
+        number = next((found for found in ids if found >= 0), -1)
         if number < 0:
             raise UnknownNameError("camera", name, self.names)
         camera = mujoco.MjvCamera()

@@ -15,9 +15,7 @@ from numpy.typing import ArrayLike
 from nao_sim.robot.anti_collision import clamp_pairs, hold_pairs
 from nao_sim.robot.errors import AngleRangeError, TargetError
 from nao_sim.robot.joints import ACTUATED, joint_table, resolve
-
-TOLERANCE_RAD = 1e-9
-"""Rounding that a range check forgives; the angle is then put exactly on the limit."""
+from nao_sim.robot.tolerance import SOFTNESS_RAD
 
 
 @lru_cache(maxsize=256)
@@ -40,6 +38,7 @@ class CommandLayer:
     """Targets and set-points of the 25 motors.
 
     Attributes:
+        limits: the name of the limit set.
         targets: ``(25,)`` where the joints are asked to go, inside ranges and tables.
         setpoint: ``(25,)`` what the motors are told now, on its rate-limited way to the targets.
         low, high: ``(25,)`` the joint ranges.
@@ -47,6 +46,7 @@ class CommandLayer:
     """
 
     def __init__(self, limits: str, period: float) -> None:
+        self.limits = limits
         table = joint_table().select(ACTUATED)
         self.low, self.high = table.range_rad(limits).T.copy()
         self.max_speed = table.max_speed_rad("nominal")
@@ -55,15 +55,21 @@ class CommandLayer:
         self._most, self._gain = self.max_speed * period, acceleration
         # Stopping takes v² / 2a, and the period it goes on before; solved for v.
         self._slow, self._slow_squared, self._brake = acceleration / 2, acceleration**2 / 4, 2 * acceleration
-        self._travel = np.zeros(len(ACTUATED))
-        self.targets = np.zeros(len(ACTUATED))
-        self.setpoint = np.zeros(len(ACTUATED))
+        self.reset(np.zeros(len(ACTUATED)))
 
     def reset(self, angles: np.ndarray) -> None:
         """Start from ``(25,)`` angles: targets and set-point alike."""
         self.targets = clamp_pairs(np.clip(angles, self.low, self.high))
         self.setpoint = self.targets.copy()
         self._travel = np.zeros(len(ACTUATED))
+
+    def state(self) -> np.ndarray:
+        """Return ``(75,)`` what the layer remembers: targets, set-point, and how far that went in the last period."""
+        return np.concatenate([self.targets, self.setpoint, self._travel])
+
+    def restore(self, state: np.ndarray) -> None:
+        """Go on from what :meth:`state` returned."""
+        self.targets, self.setpoint, self._travel = np.array(state, dtype=float).reshape(3, len(ACTUATED))
 
     def set(self, names: str | Sequence[str], angles: ArrayLike) -> None:
         """Set the targets of some joints, rad (hands: open fraction).
@@ -75,7 +81,8 @@ class CommandLayer:
         Raises:
             UnknownNameError: no such joint or chain.
             TargetError: a wrong number of angles, or one that is not finite.
-            AngleRangeError: an angle beyond its joint's range. Nothing is changed then.
+            AngleRangeError: an angle beyond its joint's range by more than the joints' own softness (what is nearer
+                is put on the limit). Nothing is changed then.
         """
         joints, rows, places = _actuators((names,) if isinstance(names, str) else tuple(names))
         values = np.asarray(angles, dtype=float)
@@ -99,14 +106,15 @@ class CommandLayer:
         self.targets = clamp_pairs(inside)
 
     def _forgive(self, targets: np.ndarray, inside: np.ndarray) -> None:
-        """Raise unless targets are outside by rounding alone."""
-        near = np.abs(inside - targets) <= TOLERANCE_RAD
+        """Raise unless targets are outside by no more than the joints' own softness."""
+        near = np.abs(inside - targets) <= SOFTNESS_RAD
         if near.all():
             return
         row = int(near.argmin())
         if not np.isfinite(targets[row]):
             raise TargetError(f"{ACTUATED[row]}: the target is not a finite number; give radians")
-        raise AngleRangeError(ACTUATED[row], float(targets[row]), float(self.low[row]), float(self.high[row]))
+        low, high = float(self.low[row]), float(self.high[row])
+        raise AngleRangeError(ACTUATED[row], float(targets[row]), low, high, self.limits)
 
     def advance(self) -> np.ndarray:
         """Move the set-point one control period towards the targets and return it, ``(25,)``.

@@ -21,15 +21,25 @@ class UnknownNameError(RobotError, LookupError):
 
 
 class AngleRangeError(RobotError, ValueError):
-    """An angle beyond its joint's range."""
+    """An angle beyond its joint's range; the message has the range set, and which other sets would allow it."""
 
-    def __init__(self, joint: str, value_rad: float, low_rad: float, high_rad: float) -> None:
+    def __init__(self, joint: str, value_rad: float, low_rad: float, high_rad: float, limits: str = "thesis") -> None:
+        from nao_sim.robot.tolerance import sets_allowing, tell_apart  # it stands on the joint table, which raises us
+
         unit = "(open fraction)" if joint.endswith("Hand") else "rad"
-        super().__init__(f"{joint}: {value_rad:.4f} is outside [{low_rad:.4f}, {high_rad:.4f}] {unit}; stay inside")
+        value, low, high = tell_apart(value_rad, low_rad, high_rad, least=4)
+        others = [name for name in sets_allowing(joint, value_rad) if name != limits]
+        mend = f"stay inside, or ask for limits '{others[0]}', which allow it" if others else "stay inside"
+        super().__init__(f"{joint}: {value} is outside [{low}, {high}] {unit} of the limits '{limits}'; {mend}")
         self.joint = joint
+        self.limits = limits
         self.value_rad = value_rad
         self.low_rad = low_rad
         self.high_rad = high_rad
+
+
+class SceneError(RobotError, ValueError):
+    """A scene in which the robot cannot be found, or cannot begin."""
 
 
 class TargetError(RobotError, ValueError):

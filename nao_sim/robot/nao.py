@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from nao_sim.robot.camera import HEIGHT_PX, RATE_HZ, WIDTH_PX, Cameras
 from nao_sim.robot.command import CommandLayer
-from nao_sim.robot.errors import UnstableError
+from nao_sim.robot.errors import SceneError, UnstableError
 from nao_sim.robot.falling import FallDetector
 from nao_sim.robot.joints import ACTUATED, BODY
 from nao_sim.robot.model import model_spec
@@ -18,9 +18,13 @@ from nao_sim.robot.placement import place
 from nao_sim.robot.postures import posture as posture_named
 from nao_sim.robot.sensors import SensorReader, SensorReadings, consecutive
 from nao_sim.robot.video import Video
+from nao_sim.robot.wiring import find_robot
 
 CONTROL_PERIOD_S = 0.02
 """NAOqi's cycle: a set-point for every motor each 20 ms (thesis app. 1)."""
+
+_STEP_ROUNDING = 1e-4
+"""Share of the control period by which a time step printed with a few digits may miss it."""
 
 _NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 _BAD_STATE = slice(int(mujoco.mjtWarning.mjWARN_BADQPOS), int(mujoco.mjtWarning.mjWARN_BADQACC) + 1)
@@ -36,11 +40,20 @@ class Nao:
         fingers: False keeps fingertips and thumbs rigid.
         shells: False leaves out the shells that only pictures need; the robot moves the same, a tenth faster.
         posture: the posture to start in.
-        model: a compiled scene of one's own that contains the robot (see :func:`nao_sim.robot.model_spec`); the
-            other arguments but ``limits`` and ``posture`` are then its own affair.
+        model: a compiled scene of one's own that contains the robot (see :func:`nao_sim.robot.model_spec`), wherever
+            in it; the other arguments but ``limits`` and ``posture`` are then its own affair.
+        prefix: which robot, where the scene has several: what stands before its names.
+        data: a state of that scene to share with other robots (see :func:`nao_sim.robot.step_together`); a reset then
+            moves this robot only.
 
     Attributes:
         model, data: MuJoCo's, to look at; command through the methods.
+        wiring: where this robot is in them.
+
+    Raises:
+        UnknownNameError: no such limit set, posture …
+        SceneError: the scene has no robot, or several; its time step does not divide the control period; the robot
+            would begin inside something.
 
     Example:
         >>> nao = Nao()
@@ -59,25 +72,28 @@ class Nao:
         posture: str = "StandInit",
         model: mujoco.MjModel | None = None,
         shells: bool = True,
+        prefix: str | None = None,
+        data: mujoco.MjData | None = None,
     ) -> None:
         if model is None:
             model = model_spec(limits, mass, base, fingers, shells=shells).compile()
         self.model = model
-        self.data = mujoco.MjData(self.model)
+        self.data = mujoco.MjData(self.model) if data is None else data
         self.limits = limits
+        self.wiring = find_robot(model, prefix)
+        self._alone = data is not None
         self._command = CommandLayer(limits, CONTROL_PERIOD_S)
-        steps = round(CONTROL_PERIOD_S / self.model.opt.timestep)
+        steps = substeps(model)
         # The motor boards interpolate between two set-points; each step gets the value at its beginning, so that the
         # result hardly depends on the time step.
         self._ramp = np.arange(steps)[:, np.newaxis] / steps
-        ids = [self.model.joint(name).id for name in ACTUATED]
-        self._qpos = self.model.jnt_qposadr[ids]
-        self._dof = self.model.jnt_dofadr[ids]
-        self._ctrl = consecutive([self.model.actuator(name).id for name in ACTUATED])
-        self._torso = self.model.body("torso").id
-        self._sensors = SensorReader(self.model)
-        self._falls = FallDetector(self.model)
-        self._cameras = Cameras(self.model)
+        self._qpos, self._dof = self.wiring.qpos, self.wiring.dof
+        self._motors = consecutive(self.wiring.motors.tolist())
+        self._ctrl = consecutive(self.wiring.ctrl.tolist())
+        self._torso = self.wiring.torso
+        self._sensors = SensorReader(self.wiring)
+        self._falls = FallDetector(self.wiring)
+        self._cameras = Cameras(self.wiring)
         self._resets = 0
         self.reset(posture)
 
@@ -92,17 +108,18 @@ class Nao:
         return float(self.data.time)
 
     def reset(self, posture: str = "StandInit") -> None:
-        """Put the robot into an official posture, at rest, targets included.
+        """Put the robot into an official posture, at rest, targets included, on what is under it in the scene.
 
         Raises:
             UnknownNameError: no such posture; the message names the nearest.
+            SceneError: the robot would begin inside something.
         """
         wanted = posture_named(posture)
-        place(self.model, self.data, wanted, self.limits)
+        ground = place(self.model, self.data, wanted, self.limits, self.wiring, self._alone)
         angles = wanted.clamped(self.limits)
         self._command.reset(angles[[BODY.index(name) for name in ACTUATED]])
         self.data.ctrl[self._ctrl] = self._command.setpoint
-        self._falls.reset(stands=wanted.torso is None)
+        self._falls.reset(wanted, ground)
         self._resets += 1
         mujoco.mj_forward(self.model, self.data)
 
@@ -148,7 +165,7 @@ class Nao:
     @property
     def torques(self) -> np.ndarray:
         """``(25,)`` motor torques at the joints, Nm."""
-        return self.data.actuator_force[self._ctrl].copy()
+        return self.data.actuator_force[self._motors].copy()
 
     @property
     def torso_pose(self) -> np.ndarray:
@@ -162,8 +179,21 @@ class Nao:
 
     @property
     def fallen(self) -> bool:
-        """Whether the robot is down: something but its feet bears on the world, or the torso leans beyond 85°."""
+        """Whether the robot is down and not by design: it lies, or bears on the ground with more than its feet.
+
+        To touch something, or to sit on a seat, is no fall; see :mod:`nao_sim.robot.falling`.
+        """
         return self._falls.fallen(self.data)
+
+    @property
+    def lies(self) -> bool:
+        """Whether the robot lies, be it by design (``LyingBack``) or not."""
+        return self._falls.lies(self.data)
+
+    @property
+    def gyro(self) -> np.ndarray:
+        """``(3,)`` angular velocity in the torso's frame, rad/s."""
+        return self._sensors.gyro(self.data)
 
     def step(self, n: int = 1) -> None:
         """Advance ``n`` control periods of 20 ms.
@@ -171,21 +201,12 @@ class Nao:
         Raises:
             UnstableError: the state is no longer finite; reset, and look at what was commanded.
         """
-        model, data, option = self.model, self.data, self.model.opt
-        ctrl, motors, bad = data.ctrl, self._ctrl, data.warning.number[_BAD_STATE]
-        for _ in range(n):
-            start = self._command.setpoint
-            ramp = start + self._ramp * (self._command.advance() - start)
-            # Sensors are read once a period: the steps before the last skip them, which changes nothing else.
-            option.disableflags |= _NO_SENSORS
-            for setpoint in ramp[:-1]:
-                ctrl[motors] = setpoint
-                mujoco.mj_step(model, data)
-            option.disableflags &= ~_NO_SENSORS
-            ctrl[motors] = ramp[-1]
-            mujoco.mj_step(model, data)
-            if any(bad.tolist()):
-                raise UnstableError(f"the simulation became unstable at {data.time:.3f} s; reset and check the targets")
+        step_together((self,), n)
+
+    def _ramp_of_period(self) -> np.ndarray:
+        """Move the set-point one period on; return what the motors get at each step on the way, ``(steps, 25)``."""
+        start = self._command.setpoint
+        return start + self._ramp * (self._command.advance() - start)
 
     def sensors(self) -> SensorReadings:
         """Return the inertial unit, foot forces, bumpers, touch sensors and sonars now."""
@@ -247,3 +268,63 @@ class Nao:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def substeps(model: mujoco.MjModel) -> int:
+    """Return how many time steps of a model make a control period.
+
+    Raises:
+        SceneError: no whole number does.
+    """
+    ratio = CONTROL_PERIOD_S / model.opt.timestep
+    steps = round(ratio)
+    if steps < 1 or abs(ratio - steps) > _STEP_ROUNDING * steps:
+        fitting = CONTROL_PERIOD_S / int(np.ceil(ratio))
+        raise SceneError(
+            f"the scene's time step of {1e3 * model.opt.timestep:g} ms does not divide the control period of 20 ms; "
+            f'set <option timestep="{fitting:.6g}"/>, or 0.005 as in the robot\'s own file'
+        )
+    return steps
+
+
+def step_together(robots: Sequence[Nao], n: int = 1) -> None:
+    """Advance robots that share one scene and state ``n`` control periods of 20 ms.
+
+    Args:
+        robots: made with the same ``model`` and ``data``.
+        n: how many periods.
+
+    Raises:
+        SceneError: they are not in one scene.
+        UnstableError: the state is no longer finite; reset, and look at what was commanded.
+
+    Example:
+        >>> import mujoco
+        >>> from nao_sim.robot import model_spec
+        >>> scene = model_spec()
+        >>> place = scene.worldbody.add_frame(pos=[0, 1, 0])
+        >>> _ = scene.attach(model_spec(scene=False), frame=place, prefix="second_")
+        >>> model = scene.compile()
+        >>> state = mujoco.MjData(model)
+        >>> pair = [Nao(model=model, data=state, prefix=prefix) for prefix in ("", "second_")]
+        >>> step_together(pair, 50)
+        >>> [robot.fallen for robot in pair]
+        [False, False]
+    """
+    model, data = robots[0].model, robots[0].data
+    if any(robot.data is not data for robot in robots):
+        raise SceneError("these robots are in different states; make them with the same model= and data=")
+    option, ctrl, bad = model.opt, data.ctrl, data.warning.number[_BAD_STATE]
+    for _ in range(n):
+        ramps = [(robot._ctrl, robot._ramp_of_period()) for robot in robots]
+        last = len(ramps[0][1]) - 1
+        # Sensors are read once a period: the steps before the last skip them, which changes nothing else.
+        option.disableflags |= _NO_SENSORS
+        for step in range(last + 1):
+            if step == last:
+                option.disableflags &= ~_NO_SENSORS
+            for motors, ramp in ramps:
+                ctrl[motors] = ramp[step]
+            mujoco.mj_step(model, data)
+        if any(bad.tolist()):
+            raise UnstableError(f"the simulation became unstable at {data.time:.3f} s; reset and check the targets")

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from nao_sim.robot.sonar import Sonar
+from nao_sim.robot.wiring import Wiring
 
 FSR = ("LFsrFL", "LFsrFR", "LFsrRL", "LFsrRR", "RFsrFL", "RFsrFR", "RFsrRL", "RFsrRR")
 """The eight foot force sensors: left foot first; front/rear, left/right."""
@@ -53,14 +54,18 @@ class SensorReadings:
 class SensorReader:
     """Reads the sensors of one model; addresses are looked up once."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
-        self._fsr = consecutive(_addresses(model, FSR).tolist())
-        self._bumpers = _addresses(model, BUMPERS)
-        self._touch = _addresses(model, TOUCH)
-        self._gyro = _addresses(model, ("Gyrometer",))[0]
-        self._accel = _addresses(model, ("Accelerometer",))[0]
-        self._quat = _addresses(model, ("TorsoOrientation",))[0]
-        self._sonar = Sonar(model)
+    def __init__(self, wiring: Wiring) -> None:
+        self._fsr = consecutive([wiring.sensor(name) for name in FSR])
+        self._bumpers = np.array([wiring.sensor(name) for name in BUMPERS])
+        self._touch = np.array([wiring.sensor(name) for name in TOUCH])
+        self._gyro = wiring.sensor("Gyrometer")
+        self._accel = wiring.sensor("Accelerometer")
+        self._quat = wiring.sensor("TorsoOrientation")
+        self._sonar = Sonar(wiring)
+
+    def gyro(self, data: mujoco.MjData) -> np.ndarray:
+        """Return the ``(3,)`` angular velocity in the torso's frame, rad/s."""
+        return data.sensordata[self._gyro : self._gyro + 3].copy()
 
     def fsr(self, data: mujoco.MjData) -> np.ndarray:
         """Return the ``(8,)`` foot forces in N, in ``FSR`` order."""
@@ -70,7 +75,7 @@ class SensorReader:
         """Return all sensors now."""
         values = data.sensordata
         return SensorReadings(
-            gyro=values[self._gyro : self._gyro + 3].copy(),
+            gyro=self.gyro(data),
             accel=values[self._accel : self._accel + 3].copy(),
             torso_rpy=roll_pitch_yaw(values[self._quat : self._quat + 4]),
             fsr=values[self._fsr].copy(),
@@ -78,10 +83,6 @@ class SensorReader:
             touch=dict(zip(TOUCH, (values[self._touch] > 0).tolist(), strict=True)),
             sonar=self._sonar.read(data),
         )
-
-
-def _addresses(model: mujoco.MjModel, names: tuple[str, ...]) -> np.ndarray:
-    return np.array([model.sensor(name).adr[0] for name in names])
 
 
 def consecutive(ids: list[int]) -> slice | np.ndarray:

@@ -9,9 +9,8 @@ import mujoco
 import numpy as np
 
 from nao_sim.resources import resource
-
-_ENVIRONMENT = np.array([1, 1, 0, 0, 0, 0], dtype=np.uint8)
-"""Geom groups that answer: everything but the robot's own shells (2) and collision shapes (3)."""
+from nao_sim.robot.rays import cast
+from nao_sim.robot.wiring import Wiring
 
 
 @lru_cache
@@ -34,10 +33,9 @@ def _cone(angle: float) -> np.ndarray:
 class Sonar:
     """Casts the rays of both emitters into what is not the robot itself."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
-        self._model = model
-        self._torso = model.body("torso").id
-        self._sites = {side: model.site(f"{side[0]}SonarEmitter").id for side in ("Left", "Right")}
+    def __init__(self, wiring: Wiring) -> None:
+        self._model, self._own = wiring.model, wiring.geoms
+        self._sites = {side: wiring.site(f"{side[0]}SonarEmitter") for side in ("Left", "Right")}
         self._least, self._greatest, angle = _specification()
         self._rays = _cone(angle)
 
@@ -47,21 +45,5 @@ class Sonar:
 
     def _distance(self, data: mujoco.MjData, site: int) -> float:
         rays = self._rays @ data.site_xmat[site].reshape(3, 3).T
-        count = len(rays)
-        geom, distance = np.zeros(count, dtype=np.int32), np.zeros(count)
-        mujoco.mj_multiRay(
-            self._model,
-            data,
-            data.site_xpos[site],
-            rays.ravel(),
-            _ENVIRONMENT,
-            1,
-            self._torso,
-            geom,
-            distance,
-            None,
-            count,
-            self._greatest,
-        )
-        hits = distance[geom >= 0]
-        return float(np.clip(hits.min(), self._least, self._greatest)) if hits.size else self._greatest
+        nearest = cast(self._model, data, self._own, data.site_xpos[site], rays, self._greatest).min()
+        return float(np.clip(nearest, self._least, self._greatest))

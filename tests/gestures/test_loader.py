@@ -25,8 +25,8 @@ def test_one_motor_for_both_hip_yaw_pitch_joints(write):
     ("change", "message"),
     [
         (("RElbowRoll = 60", "RElbowRol = 60"), r"key frame 2: unknown joint 'RElbowRol'; did you mean 'RElbowRoll'\?"),
-        (("RElbowRoll = 60", "RElbowRoll = 95"), r"RElbowRoll at 0\.9 s is 95\.00, outside its range 0\.00 \.\. 90\.00"),
-        (("RHand = 1", "RHand = 1.5"), r"RHand at 0\.5 s is 1\.50, outside its range 0\.00 \.\. 1\.00 \(0 closed"),
+        (("RElbowRoll = 60", "RElbowRoll = 95"), r"RElbowRoll at 0\.9 s is 95\.00, outside its 'thesis' range 0\.00 \.\. 90\.00"),
+        (("RHand = 1", "RHand = 1.5"), r"RHand at 0\.5 s is 1\.50, outside its 'thesis' range 0\.00 \.\. 1\.00 \(0 closed"),
         (("time = 0.9", "time = 0.4"), r"key frame 2 is at 0\.4 s, not after 0\.5 s"),
         (("time = 0.9", "time = 0.5"), r"key frame 2 is at 0\.5 s, not after 0\.5 s"),
         (("time = 0.5", "time = -1"), r"key frame 1 is at -1 s; times start at 0"),
@@ -75,8 +75,8 @@ def test_places_that_are_no_gesture_file(tmp_path, write):
         load_gesture(tmp_path / "folder.toml")
     with pytest.raises(GestureFileError, match="is not UTF-8 text"):
         load_gesture(write(b'name = "\xff\xfe"'))
-    with pytest.raises(GestureFileError, match=r"unknown suffix '.txt'; known: .toml"):
-        load_gesture(write("", "hello.txt"))
+    with pytest.raises(GestureFileError, match=r"unknown suffix '.bvh'; known: .toml"):
+        load_gesture(write("", "hello.bvh"))
     with pytest.raises(GestureFileError, match="has no key frames"):
         load_gesture(write("key_frame = []"))
 

@@ -24,7 +24,7 @@ def test_a_good_file_passes(write, good):
 def test_a_file_that_asks_for_too_much_is_refused_or_fitted(write):
     path = write(FAST, "fast.csv")
     refused = validate_gesture(path)
-    assert "HeadPitch at 1.5 s is 40.00" in refused.faults[0]
+    assert "HeadPitch at 1.50 s is 40.00" in refused.faults[0]
     assert refused.measures is None
     fitted = validate_gesture(path, fitted=True)
     assert fitted.faults == []
@@ -48,7 +48,7 @@ def test_validate_tells_and_draws(write, good, tmp_path, capsys):
     assert picture.read_bytes().startswith(b"\x89PNG")
     with pytest.raises(typer.Exit) as ended:
         validate(["yes", "nope"], as_json=False)
-    assert ended.value.exit_code == 1
+    assert ended.value.exit_code == 2
     assert "did you mean 'no'?" in " ".join(capsys.readouterr().out.split())
 
 

@@ -30,7 +30,7 @@ def test_one_piece_is_the_minimum_jerk_movement():
     assert np.allclose(ease(np.array([0.0, 1.0]), np.array([0.0, 1.0]), at, "minimum_jerk"), expected)
 
 
-@pytest.mark.parametrize("easing", EASINGS)
+@pytest.mark.parametrize("easing", ["minimum_jerk", "cubic"])
 def test_rests_at_turning_points(easing):
     times, values = np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0, 0.0])
     near = np.array([0.5 - 1e-4, 0.5, 0.5 + 1e-4])

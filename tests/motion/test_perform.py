@@ -3,11 +3,11 @@ import pytest
 
 from nao_sim.gestures import library
 from nao_sim.motion import Trajectory, perform
-from nao_sim.motion.crowd import play_all, replay
+from nao_sim.motion.crowd import Crowd, play_all, replay
 from nao_sim.motion.measures import Criteria, measure
 from nao_sim.motion.stress import describe_trial, replay_trial, stress
 from nao_sim.motion.trials import FACTORS, draw_trials
-from nao_sim.robot import ACTUATED, AngleRangeError, Nao, posture
+from nao_sim.robot import ACTUATED, AngleRangeError, Nao, model_spec, posture
 
 HOME = np.array([posture("StandInit")[name] for name in ACTUATED])
 
@@ -144,3 +144,17 @@ def test_the_result_does_not_depend_on_threads(yes):
     trials = draw_trials(1, range(3), Nao(fingers=False).model.nbody)
     one, two = play_all(yes, trials, threads=1), play_all(yes, trials, threads=2)
     assert np.array_equal(one.worst_lean, two.worst_lean)
+
+
+def test_a_trial_whose_simulation_is_lost_did_not_stay_up() -> None:
+    """MuJoCo sets an unstable one back to its start, where it would be found standing."""
+    trials = draw_trials(0, range(3), int(model_spec(fingers=False).compile().nbody), dict.fromkeys(FACTORS, 0.0))
+    crowd = Crowd(trials, threads=1)
+    crowd.step(np.tile(HOME, (3, 1)))
+    assert crowd.down().tolist() == [False, False, False]
+    crowd.batch.bind("qvel")[1] = 1e12
+    for _ in range(3):
+        crowd.step(np.tile(HOME, (3, 1)))
+        assert crowd.lost().tolist() == [False, True, False]
+        assert crowd.down().tolist() == [False, True, False]
+        assert np.isfinite(crowd.lean()).all()

@@ -7,19 +7,31 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from rerun.chunk import RrdReader
 
+from nao_sim.gestures.formats import Said, load_motion
 from nao_sim.recording.joints import in_display_units, log_balance, log_joints
 from nao_sim.recording.layout import layout
 from nao_sim.recording.narrative import log_decision, log_phases
+from nao_sim.recording.properties import send_properties
 from nao_sim.recording.robot import log_body_poses, log_shells
 from nao_sim.recording.stream import RecordingError, recording
-from nao_sim.recording.video import LONGEST_SIDE_PX, log_frames
-from nao_sim.robot import ACTUATED, Nao, joint_table
+from nao_sim.recording.video import (
+    LONGEST_SIDE_PX,
+    log_boxes,
+    log_centroid_path,
+    log_ellipses,
+    log_frames,
+    log_picture,
+)
+from nao_sim.robot import ACTUATED, Nao, joint_table, model_spec
 
 RNG = np.random.default_rng(5)
 TIME = np.linspace(0.0, 1.0, 51)
@@ -145,3 +157,93 @@ def test_an_error_while_recording_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt), recording(tmp_path / "cut.rrd", "x", "x", layout((), ())) as stream:
         log_frames(stream, broken(), fps=25.0)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("count", [1, 40, 400])
+def test_a_disk_that_fills_up_ends_in_an_error_and_never_waits(tmp_path: Path, count: int) -> None:
+    """However much comes after the disk is full: Rerun's own writer dies then, and what follows waits for it."""
+    path = tmp_path / "full.rrd"
+    path.symlink_to("/dev/full")
+    noise = RNG.integers(0, 255, (60, 80, 3), dtype=np.uint8)
+    with (
+        pytest.raises(RecordingError, match=r"full\.rrd could not be written \(No space left on device\)"),
+        recording(path, "x", "x", layout((), ())) as stream,
+    ):
+        log_frames(stream, (noise for _ in range(count)), fps=25.0)
+    assert list(tmp_path.iterdir()) == []
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.sampled_from([10.0, 23.976, 24.0, 25.0, 29.97, 30.0, 59.94, 120.0, 1000.0]), st.integers(0, 4000))
+def test_a_picture_and_what_is_drawn_on_it_share_their_nanosecond(tmp_path: Path, fps: float, first: int) -> None:
+    path = tmp_path / "together.rrd"
+    moments = (first + np.arange(64)) / fps
+    with recording(path, "x", "x", layout((), ())) as stream:
+        log_frames(stream, (np.zeros((8, 8, 3), np.uint8) for _ in range(first % 7 + 64)), fps=fps)
+        begun = np.arange(64) / fps
+        log_boxes(stream, begun, [np.zeros((1, 4))] * 64)
+        log_centroid_path(stream, begun, np.zeros((64, 2)))
+        log_joints(stream, ACTUATED[:1], np.array([[-1.0, 1.0]]), moments, *[np.zeros((64, 1))] * 3)
+        for at in moments.tolist():
+            log_picture(stream, "evidence/difference", at, np.zeros((4, 4), np.uint8))
+            log_ellipses(stream, "evidence/difference", at, np.zeros((1, 2)), np.ones((1, 2)))
+
+    def stamps(entity: str) -> list[int]:
+        found = pa.Table.from_batches(list(batches(path, entity))).sort_by("time")
+        return found["time"].cast(pa.int64()).to_pylist()
+
+    pictures = stamps("/video/frame")[:64]
+    assert pictures == stamps("/video/flow") == stamps("/video/centroid") == np.rint(begun * 1e9).astype(int).tolist()
+    joints = stamps("/joints/HeadYaw/angle")
+    assert joints == stamps("/evidence/difference/picture") == stamps("/evidence/difference/ellipses")
+    assert joints == stamps("/joints/HeadYaw/target")
+
+
+def test_properties_keep_their_values_and_types_from_run_to_run(tmp_path: Path) -> None:
+    """Whole numbers first, fractions later, none in between: in one process each file holds what was sent."""
+    runs = [
+        {"distance": 1, "gesture": "yes"},
+        {"distance": 0.75, "gesture": None},
+        {"distance": np.float32(2), "gesture": "7"},
+    ]
+    for index, values in enumerate(runs):
+        path = tmp_path / f"{index}.rrd"
+        with recording(path, "x", f"x{index}", layout((), ())) as stream:
+            send_properties(stream, "episode", values)
+        found = {}
+        for chunk in RrdReader(path).stream():
+            batch = chunk.to_record_batch()
+            for name in batch.schema.names:
+                if chunk.entity_path.endswith("/episode") and not name.startswith("rerun"):
+                    found[name] = (batch[name].type.value_type, batch[name].to_pylist()[0])
+        assert found.pop("distance") == (pa.float64(), [float(values["distance"])])
+        if values["gesture"] is None:
+            assert found == {}
+        else:
+            assert found == {"gesture": (pa.string(), [str(values["gesture"])])}
+
+
+def test_a_scene_s_bodies_may_be_called_anything(tmp_path: Path) -> None:
+    spec = model_spec()
+    for name in ("a/b", "two words", "", "ünï"):
+        body = spec.worldbody.add_body(name=name, pos=[1, 1, 1])
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.1, 0, 0])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    pose = np.concatenate([data.xpos, data.xquat], axis=1)[None]
+    path = tmp_path / "scene.rrd"
+    with recording(path, "x", "x", layout((), ())) as stream:
+        log_shells(stream, model)
+        log_body_poses(stream, model, np.zeros(1), pose)
+    posed = {c.entity_path for c in RrdReader(path).stream() if not c.is_static}
+    assert len([entity for entity in posed if entity.startswith("/world/robot/")]) == model.nbody - 1
+
+
+@pytest.mark.parametrize("measured", [False, True])
+def test_the_joints_of_a_recording_are_a_motion(rrd: Path, motion: dict[str, np.ndarray], measured: bool) -> None:
+    read = load_motion(rrd, Said(measured=measured))
+    wanted = motion["angles" if measured else "targets"]
+    for column, name in enumerate(ACTUATED):
+        assert np.allclose(read.curves[name].times, TIME, atol=1e-9)
+        assert np.allclose(read.curves[name].values, wanted[:, column], atol=1e-9)

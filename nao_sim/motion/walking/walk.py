@@ -68,4 +68,4 @@ def walk(
 
 def observe(nao: Nao) -> Observation:
     """Return what the inertial unit feels now."""
-    return Observation(roll_pitch_yaw(nao.torso_pose[3:])[:2], nao.data.sensor("Gyrometer").data[:2].copy())
+    return Observation(roll_pitch_yaw(nao.torso_pose[3:])[:2], nao.gyro[:2])
