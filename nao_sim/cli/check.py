@@ -93,10 +93,11 @@ def check(as_json: Annotated[bool, typer.Option("--json", help="Print the findin
 
 def _print(findings: list[Finding]) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     sign = {None: "", True: "[green]ok[/]", False: "[red]not ok[/]"}
     table = Table(show_header=False, box=None)
     for finding in findings:
-        table.add_row(finding.what, sign[finding.ok], finding.detail)
+        table.add_row(finding.what, sign[finding.ok], escape(finding.detail))
     Console().print(table)

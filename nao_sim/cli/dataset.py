@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import cv2
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
@@ -82,9 +83,13 @@ def _print(console: Console, rows: list[dict[str, Any]], problems: list[checking
         rates = [float(row.get("fps") or 0) for row in mine]
         timed = [count / rate for count, rate in zip(frames, rates, strict=True) if rate > 0]
         spread = f"{min(timed):.1f} to {max(timed):.1f}" if timed else ""
-        table.add_row(label, str(len(mine)), str(len({row["person"] for row in mine})), str(sum(frames)), spread)
+        table.add_row(
+            escape(label), str(len(mine)), str(len({row["person"] for row in mine})), str(sum(frames)), spread
+        )
     console.print(table)
     for problem in problems:
-        console.print(f"{'warning' if problem.warning else 'error'}: {problem.where}: {problem.text}", highlight=False)
+        kind = "warning" if problem.warning else "error"
+        console.print(f"{kind}: {problem.where}: {problem.text}", highlight=False, markup=False)
     bad = sum(not problem.warning for problem in problems)
-    console.print(f"{len(rows)} clips, {bad} errors, {len(problems) - bad} warnings; contact sheet: {picture}")
+    count = f"{len(rows)} clips, {bad} errors, {len(problems) - bad} warnings"
+    console.print(f"{count}; contact sheet: {picture}", markup=False)

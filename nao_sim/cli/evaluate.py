@@ -37,7 +37,7 @@ def evaluate(
         from recognizer.evaluation.figures import draw_figures
 
         for path in draw_figures(evaluations, figures):
-            console.print(f"wrote {path}")
+            console.print(f"wrote {path}", markup=False)
     if as_json:
         rows = {e.method: {**e.summary(), "by_k": e.by_k, "rejections": e.rejections()} for e in evaluations}
         typer.echo(json.dumps(rows))
@@ -64,6 +64,7 @@ def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bo
 
 
 def _print(console: Any, evaluations: list[Any]) -> None:
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table("share", *(f"{e.method}, {e.protocol}" for e in evaluations))
@@ -76,5 +77,5 @@ def _print(console: Any, evaluations: list[Any]) -> None:
         if passing:
             worst = Table(f"irrelevant, passing most ({evaluation.method})", "clips", "rejected", "taken for")
             for name, clips, rejected, taken_for in passing[:PASSING]:
-                worst.add_row(name, str(clips), f"{100 * rejected:.0f} %", taken_for)
+                worst.add_row(escape(name), str(clips), f"{100 * rejected:.0f} %", escape(taken_for))
             console.print(worst)

@@ -35,7 +35,7 @@ def train(
     recognizer = Recognizer.fit(database)
     recognizer.save(out)
     for problem in problems:
-        console.print(f"left out: {problem}", style="yellow")
+        console.print(f"left out: {problem}", style="yellow", markup=False)
     size = out.stat().st_size
     summary = {
         "database": str(out),
@@ -56,7 +56,8 @@ def train(
     else:
         console.print(
             f"{out}: {summary['clips']} clips of {summary['persons']} persons, "
-            f"{len(recognizer.labels)} gestures, {size / 1e6:.2f} MB, method {method}"
+            f"{len(recognizer.labels)} gestures, {size / 1e6:.2f} MB, method {method}",
+            markup=False,
         )
 
 
