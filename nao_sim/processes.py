@@ -66,6 +66,15 @@ def end_with_parent() -> None:
     threading.Thread(target=watch, name="parent", daemon=True).start()
 
 
+@contextmanager
+def joblib_workers() -> Iterator[None]:
+    """Make joblib's workers end with this process; for work that is started inside the block."""
+    import joblib
+
+    with joblib.parallel_config(backend="loky", initializer=end_with_parent):
+        yield
+
+
 def end_children() -> None:
     """End this process's own worker processes now."""
     import multiprocessing

@@ -7,7 +7,6 @@ from collections import Counter
 from pathlib import Path
 from typing import Annotated, Any
 
-import cv2
 import typer
 from rich.console import Console
 from rich.markup import escape
@@ -16,6 +15,7 @@ from rich.table import Table
 
 from nao_sim.people.datasets import checking, importing
 from nao_sim.people.datasets.manifest import read_manifest
+from nao_sim.pictures import write_picture
 
 dataset = typer.Typer(no_args_is_help=True, help="Verify a data set, or make one of your own recordings.")
 EXIT_PROBLEMS = 1
@@ -44,7 +44,7 @@ def check(
     picture = sheet or folder / "contact_sheet.png"
     readable = [row for row in rows if (folder / row["file"]).is_file()]
     if readable:
-        cv2.imwrite(str(picture), checking.contact_sheet(folder, readable))
+        write_picture(picture, checking.contact_sheet(folder, readable))
     if as_json:
         typer.echo(json.dumps(_summary(rows) | {"problems": [vars(p) for p in problems]}, indent=2))
     else:

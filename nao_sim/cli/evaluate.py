@@ -48,6 +48,7 @@ def evaluate(
 def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bool) -> list[Any]:
     from nao_sim.cli.progress import stages
     from nao_sim.cli.train import described
+    from nao_sim.processes import joblib_workers
     from recognizer import Database
     from recognizer.evaluation.cross_validation import evaluate as score
 
@@ -57,7 +58,7 @@ def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bo
             database = Database.load(dataset)
         else:
             database, _ = described(dataset, method.strip(), jobs)
-        with stages(as_json) as show:
+        with stages(as_json) as show, joblib_workers():
             name = f"{protocol}, {database.method}"
             evaluations.append(score(database, protocol, functools.partial(show, name), jobs))
     return evaluations

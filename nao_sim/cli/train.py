@@ -69,11 +69,12 @@ def described(dataset: Path, method: str, jobs: int) -> tuple[Any, list[str]]:
     """
     from nao_sim.cli.progress import stages
     from nao_sim.gestures.vocabulary import vocabulary
+    from nao_sim.processes import joblib_workers
     from recognizer.evaluation.dataset import build_database, read_manifest
 
     entries = read_manifest(dataset)
     families = {name: entry.family for name, entry in vocabulary().items() if entry.family in ("small", "large")}
-    with stages() as show:
+    with stages() as show, joblib_workers():
         return build_database(
             entries,
             families,

@@ -65,6 +65,17 @@ def frames_of(
     return shown
 
 
+def _frames_in(path: Path) -> int:
+    """Return how many pictures can be read from a video."""
+    film, count = cv2.VideoCapture(str(path)), 0
+    try:
+        while film.isOpened() and film.grab():
+            count += 1
+    finally:
+        film.release()
+    return count
+
+
 def film_robot(model: mujoco.MjModel, log: MotionLog, path: Path, size: tuple[int, int] = SIZE) -> None:
     """Write a motion as a video in real time, 25 frames a second; an older file is replaced as a whole.
 
@@ -73,7 +84,8 @@ def film_robot(model: mujoco.MjModel, log: MotionLog, path: Path, size: tuple[in
     """
     if not path.absolute().parent.is_dir():
         raise EpisodeError(f"{path} cannot be written: {path.parent} is no folder; make it first")
-    frames = frames_of(model, log, np.arange(0.0, log.time[-1], 1.0 / FPS), size)
+    # A motion shorter than a picture still has one.
+    frames = frames_of(model, log, np.arange(0.0, max(log.time[-1], 0.5 / FPS), 1.0 / FPS), size)
     beside = path.with_name(f".{path.stem}.part{path.suffix or '.mp4'}")
     writer = cv2.VideoWriter(str(beside), cv2.VideoWriter.fourcc(*"mp4v"), FPS, size)
     try:
@@ -82,6 +94,11 @@ def film_robot(model: mujoco.MjModel, log: MotionLog, path: Path, size: tuple[in
         for frame in frames:
             writer.write(frame)
         writer.release()
+        # OpenCV does not say that a disk was full; what it wrote does.
+        if _frames_in(beside) != len(frames):
+            raise EpisodeError(
+                f"{path} could not be written whole; is the disk full? Free some space, or write elsewhere"
+            )
         os.replace(beside, path)
     finally:
         writer.release()
