@@ -55,14 +55,14 @@ def _models_and_assets() -> str:
 
 
 def _rendering() -> str:
-    from nao_sim.rendering import gl_problem
+    from nao_sim.rendering import gl_problem_elsewhere
 
-    problem = gl_problem()
+    problem = gl_problem_elsewhere()
     if problem is not None:
         raise RuntimeError(problem)
     import os
 
-    return f"MUJOCO_GL={os.environ.get('MUJOCO_GL', '(not set)')}"
+    return f"a picture was rendered with MUJOCO_GL={os.environ.get('MUJOCO_GL', '(not set)')}"
 
 
 def _try(what: str, look: Callable[[], str]) -> Finding:
