@@ -81,6 +81,8 @@ def _line(error: Exception) -> str:
     """Say an error in one line; what the system says of a file gets a mend."""
     if isinstance(error, OSError) and error.filename is not None and not isinstance(error, NaoSimError):
         return f"{error.filename}: {error.strerror}; choose another place or check its permissions"
+    if isinstance(error, OSError) and not isinstance(error, NaoSimError) and error.strerror:
+        return error.strerror
     return " ".join(str(error).split())
 
 
