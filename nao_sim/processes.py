@@ -48,12 +48,14 @@ def stopped_by_signals() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def end_with_parent() -> None:
+def end_with_parent(parent: int) -> None:
     """Let this worker process end when its parent does, however that ends; call it once in each worker.
 
     A parent that is killed cannot tell its workers, which would wait for work for ever.
+
+    Args:
+        parent: its process id; asking the system for it may come too late.
     """
-    parent = os.getppid()
 
     def watch() -> None:
         while os.getppid() == parent:
@@ -71,7 +73,7 @@ def joblib_workers() -> Iterator[None]:
     """Make joblib's workers end with this process; for work that is started inside the block."""
     import joblib
 
-    with joblib.parallel_config(backend="loky", initializer=end_with_parent):
+    with joblib.parallel_config(backend="loky", initializer=end_with_parent, initargs=(os.getpid(),)):
         yield
 
 

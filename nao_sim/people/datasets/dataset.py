@@ -181,7 +181,8 @@ def _film_one(job: Job, out: Path) -> int:
 def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], None]) -> None:
     # An OpenGL context does not survive a fork.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context, initializer=end_with_parent) as pool:
+    mine = (os.getpid(),)
+    with ProcessPoolExecutor(processes, mp_context=context, initializer=end_with_parent, initargs=mine) as pool:
         try:
             for future in as_completed([pool.submit(_film_one, job, out) for job in jobs]):
                 done(future.result())
