@@ -100,4 +100,4 @@ def _print(findings: list[Finding]) -> None:
     table = Table(show_header=False, box=None)
     for finding in findings:
         table.add_row(finding.what, sign[finding.ok], escape(finding.detail))
-    Console().print(table)
+    Console(emoji=False).print(table)

@@ -31,7 +31,7 @@ def check(
 ) -> None:
     """Read every clip, list what is wrong, and draw a contact sheet; exit code 1 when something is."""
     rows = read_manifest(folder)
-    console = Console(stderr=as_json)
+    console = Console(stderr=as_json, emoji=False)
     with console.status("reading clips") as status:
         read = 0
 

@@ -28,7 +28,7 @@ def evaluate(
 
     from nao_sim.cli import photos
 
-    console = Console(stderr=as_json)
+    console = Console(stderr=as_json, emoji=False)
     if photos.is_photo_set(dataset):
         evaluations = photos.evaluate_photos(dataset, protocol, methods or photos.METHODS, as_json)
     else:

@@ -61,4 +61,4 @@ def _print(rows: list[dict[str, object]]) -> None:
         seconds = f"{row['duration_s']:.1f}"
         name, family, kind, title = (escape(str(row[key])) for key in ("name", "family", "class", "title"))
         table.add_row(number, name, family, kind, seconds, title)
-    Console().print(table)
+    Console(emoji=False).print(table)

@@ -67,4 +67,4 @@ def _print(episode: Episode, folder: Path) -> None:
         table.add_row("note", escape(warning))
     table.add_row("written", escape(f"{folder}/episode.json, episode.parquet, episode.rrd"))
     table.add_row("look", escape(f"rerun {folder}/episode.rrd"))
-    Console(soft_wrap=True).print(table)
+    Console(soft_wrap=True, emoji=False).print(table)

@@ -104,8 +104,8 @@ def _console() -> Console:
     """Return a console; a file or pipe, which has no width, gets one that the table fits."""
     from rich.console import Console
 
-    console = Console()
-    return console if console.is_terminal else Console(width=max(console.width, _WIDTH))
+    console = Console(emoji=False)
+    return console if console.is_terminal else Console(emoji=False, width=max(console.width, _WIDTH))
 
 
 def _range(pair: tuple[float, float] | None) -> str:

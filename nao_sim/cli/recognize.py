@@ -61,7 +61,7 @@ def _print(answers: list[Any]) -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    console = Console()
+    console = Console(emoji=False)
     if not answers:
         console.print("no motion that could be a gesture")
         return

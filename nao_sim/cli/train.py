@@ -30,7 +30,7 @@ def train(
         train_photos(dataset, out, method or "static", as_json)
         return
     method = method or "body"
-    console = Console(stderr=as_json)
+    console = Console(stderr=as_json, emoji=False)
     database, problems = described(dataset, method, jobs)
     recognizer = Recognizer.fit(database)
     recognizer.save(out)

@@ -50,7 +50,7 @@ class Cameras:
     ) -> np.ndarray:
         """Return one ``(height, width, 3)`` uint8 RGB picture; see :meth:`nao_sim.robot.Nao.camera`."""
         view = self._view(data, camera) if isinstance(camera, str) else camera
-        if not (1 <= int(width) == width <= _MOST_PX and 1 <= int(height) == height <= _MOST_PX):
+        if not all(1 <= side <= _MOST_PX and side == int(side) for side in (width, height)):
             raise RenderError(f"a picture of {width}x{height} pixels; ask for whole numbers from 1 to {_MOST_PX}")
         # An OpenGL context belongs to the thread that made it.
         key = (int(width), int(height), bool(fine), threading.get_ident())
