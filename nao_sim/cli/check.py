@@ -55,14 +55,14 @@ def _models_and_assets() -> str:
 
 
 def _rendering() -> str:
-    from nao_sim.rendering import gl_problem
+    from nao_sim.rendering import gl_problem_elsewhere
 
-    problem = gl_problem()
+    problem = gl_problem_elsewhere()
     if problem is not None:
         raise RuntimeError(problem)
     import os
 
-    return f"MUJOCO_GL={os.environ.get('MUJOCO_GL', '(not set)')}"
+    return f"a picture was rendered with MUJOCO_GL={os.environ.get('MUJOCO_GL', '(not set)')}"
 
 
 def _try(what: str, look: Callable[[], str]) -> Finding:
@@ -93,10 +93,11 @@ def check(as_json: Annotated[bool, typer.Option("--json", help="Print the findin
 
 def _print(findings: list[Finding]) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     sign = {None: "", True: "[green]ok[/]", False: "[red]not ok[/]"}
     table = Table(show_header=False, box=None)
     for finding in findings:
-        table.add_row(finding.what, sign[finding.ok], finding.detail)
-    Console().print(table)
+        table.add_row(finding.what, sign[finding.ok], escape(finding.detail))
+    Console(emoji=False).print(table)

@@ -7,14 +7,15 @@ from collections import Counter
 from pathlib import Path
 from typing import Annotated, Any
 
-import cv2
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
 from nao_sim.people.datasets import checking, importing
 from nao_sim.people.datasets.manifest import read_manifest
+from nao_sim.pictures import write_picture
 
 dataset = typer.Typer(no_args_is_help=True, help="Verify a data set, or make one of your own recordings.")
 EXIT_PROBLEMS = 1
@@ -30,7 +31,7 @@ def check(
 ) -> None:
     """Read every clip, list what is wrong, and draw a contact sheet; exit code 1 when something is."""
     rows = read_manifest(folder)
-    console = Console(stderr=as_json)
+    console = Console(stderr=as_json, emoji=False)
     with console.status("reading clips") as status:
         read = 0
 
@@ -43,7 +44,7 @@ def check(
     picture = sheet or folder / "contact_sheet.png"
     readable = [row for row in rows if (folder / row["file"]).is_file()]
     if readable:
-        cv2.imwrite(str(picture), checking.contact_sheet(folder, readable))
+        write_picture(picture, checking.contact_sheet(folder, readable))
     if as_json:
         typer.echo(json.dumps(_summary(rows) | {"problems": [vars(p) for p in problems]}, indent=2))
     else:
@@ -82,9 +83,13 @@ def _print(console: Console, rows: list[dict[str, Any]], problems: list[checking
         rates = [float(row.get("fps") or 0) for row in mine]
         timed = [count / rate for count, rate in zip(frames, rates, strict=True) if rate > 0]
         spread = f"{min(timed):.1f} to {max(timed):.1f}" if timed else ""
-        table.add_row(label, str(len(mine)), str(len({row["person"] for row in mine})), str(sum(frames)), spread)
+        table.add_row(
+            escape(label), str(len(mine)), str(len({row["person"] for row in mine})), str(sum(frames)), spread
+        )
     console.print(table)
     for problem in problems:
-        console.print(f"{'warning' if problem.warning else 'error'}: {problem.where}: {problem.text}", highlight=False)
+        kind = "warning" if problem.warning else "error"
+        console.print(f"{kind}: {problem.where}: {problem.text}", highlight=False, markup=False)
     bad = sum(not problem.warning for problem in problems)
-    console.print(f"{len(rows)} clips, {bad} errors, {len(problems) - bad} warnings; contact sheet: {picture}")
+    count = f"{len(rows)} clips, {bad} errors, {len(problems) - bad} warnings"
+    console.print(f"{count}; contact sheet: {picture}", markup=False)

@@ -28,7 +28,7 @@ def evaluate(
 
     from nao_sim.cli import photos
 
-    console = Console(stderr=as_json)
+    console = Console(stderr=as_json, emoji=False)
     if photos.is_photo_set(dataset):
         evaluations = photos.evaluate_photos(dataset, protocol, methods or photos.METHODS, as_json)
     else:
@@ -37,7 +37,7 @@ def evaluate(
         from recognizer.evaluation.figures import draw_figures
 
         for path in draw_figures(evaluations, figures):
-            console.print(f"wrote {path}")
+            console.print(f"wrote {path}", markup=False)
     if as_json:
         rows = {e.method: {**e.summary(), "by_k": e.by_k, "rejections": e.rejections()} for e in evaluations}
         typer.echo(json.dumps(rows))
@@ -48,6 +48,7 @@ def evaluate(
 def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bool) -> list[Any]:
     from nao_sim.cli.progress import stages
     from nao_sim.cli.train import described
+    from nao_sim.processes import joblib_workers
     from recognizer import Database
     from recognizer.evaluation.cross_validation import evaluate as score
 
@@ -57,13 +58,14 @@ def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bo
             database = Database.load(dataset)
         else:
             database, _ = described(dataset, method.strip(), jobs)
-        with stages(as_json) as show:
+        with stages(as_json) as show, joblib_workers():
             name = f"{protocol}, {database.method}"
             evaluations.append(score(database, protocol, functools.partial(show, name), jobs))
     return evaluations
 
 
 def _print(console: Any, evaluations: list[Any]) -> None:
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table("share", *(f"{e.method}, {e.protocol}" for e in evaluations))
@@ -76,5 +78,5 @@ def _print(console: Any, evaluations: list[Any]) -> None:
         if passing:
             worst = Table(f"irrelevant, passing most ({evaluation.method})", "clips", "rejected", "taken for")
             for name, clips, rejected, taken_for in passing[:PASSING]:
-                worst.add_row(name, str(clips), f"{100 * rejected:.0f} %", taken_for)
+                worst.add_row(escape(name), str(clips), f"{100 * rejected:.0f} %", escape(taken_for))
             console.print(worst)

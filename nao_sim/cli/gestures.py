@@ -46,6 +46,7 @@ def _duration_s(gesture: Gesture) -> float:
 
 def _print(rows: list[dict[str, object]]) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table(box=None, header_style="bold", pad_edge=False)
@@ -58,5 +59,6 @@ def _print(rows: list[dict[str, object]]) -> None:
     for row in rows:
         number = "" if row["number"] is None else str(row["number"])
         seconds = f"{row['duration_s']:.1f}"
-        table.add_row(number, str(row["name"]), str(row["family"]), str(row["class"]), seconds, str(row["title"]))
-    Console().print(table)
+        name, family, kind, title = (escape(str(row[key])) for key in ("name", "family", "class", "title"))
+        table.add_row(number, name, family, kind, seconds, title)
+    Console(emoji=False).print(table)

@@ -49,21 +49,22 @@ def imitate(
 
 def _print(episode: Episode, folder: Path) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     seen, outcome = episode.recognition, episode.outcome
     table = Table(show_header=False, box=None, pad_edge=False)
-    what = f"[bold]{seen.label}[/]" if seen.label else f"[bold]none of these[/] ({seen.reason})"
+    what = f"[bold]{escape(seen.label)}[/]" if seen.label else f"[bold]none of these[/] ({escape(seen.reason)})"
     how_sure = f"  {seen.family}, distance {seen.distance:.2f} of at most {seen.threshold:.2f}" if seen.nearest else ""
     table.add_row("seen", what + how_sure)
     if episode.answer.gesture:
         upright = f"[red]fell after {outcome.fell_at_s:.1f} s[/]" if outcome.fell_at_s is not None else "stayed upright"
-        table.add_row("answered", f"[bold]{episode.answer.gesture}[/], {outcome.duration_s:.1f} s")
+        table.add_row("answered", f"[bold]{escape(episode.answer.gesture)}[/], {outcome.duration_s:.1f} s")
         table.add_row("done", f"{upright}, joints {outcome.tracking_rms_deg:.1f}° RMS from their targets")
     else:
         table.add_row("answered", "nothing; the robot stands still")
     for warning in seen.warnings:
-        table.add_row("note", warning)
-    table.add_row("written", f"{folder}/episode.json, episode.parquet, episode.rrd")
-    table.add_row("look", f"rerun {folder}/episode.rrd")
-    Console(soft_wrap=True).print(table)
+        table.add_row("note", escape(warning))
+    table.add_row("written", escape(f"{folder}/episode.json, episode.parquet, episode.rrd"))
+    table.add_row("look", escape(f"rerun {folder}/episode.rrd"))
+    Console(soft_wrap=True, emoji=False).print(table)

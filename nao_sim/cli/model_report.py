@@ -87,14 +87,14 @@ def _print(reports: Sequence[JointReport], limits: str) -> None:
     )
     for problems in dict.fromkeys(r.problems for r in there if r.problems):
         joints = ", ".join(r.joint for r in there if r.problems == problems)
-        console.print(f"{joints}: {'; '.join(problems)}", soft_wrap=True)
+        console.print(f"{joints}: {'; '.join(problems)}", soft_wrap=True, markup=False)
     missing = [r.joint for r in reports if r not in there]
     if missing:
-        console.print(f"not in the model: {', '.join(missing)}", soft_wrap=True)
+        console.print(f"not in the model: {', '.join(missing)}", soft_wrap=True, markup=False)
     open_ = [r for r in reports if r.unmeasured]
     for reason in dict.fromkeys(r.unmeasured for r in open_):
         joints = ", ".join(r.joint for r in open_ if r.unmeasured == reason)
-        console.print(f"{joints}: not measured, {reason}", soft_wrap=True)
+        console.print(f"{joints}: not measured, {reason}", soft_wrap=True, markup=False)
     bad = sum(bool(r.problems) for r in reports)
     count = f"{len(reports)} joints, {bad} with problems"
     console.print(count + (f", {len(open_)} not measured" if open_ else ""))
@@ -104,8 +104,8 @@ def _console() -> Console:
     """Return a console; a file or pipe, which has no width, gets one that the table fits."""
     from rich.console import Console
 
-    console = Console()
-    return console if console.is_terminal else Console(width=max(console.width, _WIDTH))
+    console = Console(emoji=False)
+    return console if console.is_terminal else Console(emoji=False, width=max(console.width, _WIDTH))
 
 
 def _range(pair: tuple[float, float] | None) -> str:

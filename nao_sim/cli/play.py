@@ -109,4 +109,4 @@ def _print(result: dict[str, Any], changes: list[Change], out: Path | None, vide
         table.add_row("written", escape(f"{out}/motion.json, motion.csv, asked.csv"))
     if video is not None:
         table.add_row("filmed", escape(str(video)))
-    Console(soft_wrap=True).print(table)
+    Console(soft_wrap=True, emoji=False).print(table)

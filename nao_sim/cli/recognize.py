@@ -58,9 +58,10 @@ def _show(answers: list[Any], as_json: bool, every: bool) -> None:
 
 def _print(answers: list[Any]) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
-    console = Console()
+    console = Console(emoji=False)
     if not answers:
         console.print("no motion that could be a gesture")
         return
@@ -68,12 +69,12 @@ def _print(answers: list[Any]) -> None:
     for a in answers:
         shown = [n.action if n.label == "irrelevant" else n.label for n in a.neighbours[:3]]
         table.add_row(
-            f"{a.start:.1f}", f"{a.end:.1f}", a.label or "[red]rejected", a.family,
-            *((f"{a.distance:.2f}", f"{a.threshold:.2f}") if a.nearest else ("–", "–")), ", ".join(shown),
+            f"{a.start:.1f}", f"{a.end:.1f}", escape(a.label) if a.label else "[red]rejected", a.family,
+            *((f"{a.distance:.2f}", f"{a.threshold:.2f}") if a.nearest else ("–", "–")), escape(", ".join(shown)),
         )  # fmt: skip
     console.print(table)
     for a in answers:
         if a.rejected:
-            console.print(f"{a.start:.1f} s: {a.reason}")
+            console.print(f"{a.start:.1f} s: {a.reason}", markup=False)
     for warning in dict.fromkeys(w for a in answers for w in a.warnings):
-        console.print(f"warning: {warning}", style="yellow")
+        console.print(f"warning: {warning}", style="yellow", markup=False)

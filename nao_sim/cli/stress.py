@@ -124,7 +124,7 @@ def _print(asked: str, gesture: Gesture, report: StressReport, more: str) -> Non
                 f"--video trial.mp4{more}"
             ),
         )
-    Console(soft_wrap=True).print(table)
+    Console(soft_wrap=True, emoji=False).print(table)
 
 
 def _weakest(report: StressReport) -> str:

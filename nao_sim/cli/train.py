@@ -30,12 +30,12 @@ def train(
         train_photos(dataset, out, method or "static", as_json)
         return
     method = method or "body"
-    console = Console(stderr=as_json)
+    console = Console(stderr=as_json, emoji=False)
     database, problems = described(dataset, method, jobs)
     recognizer = Recognizer.fit(database)
     recognizer.save(out)
     for problem in problems:
-        console.print(f"left out: {problem}", style="yellow")
+        console.print(f"left out: {problem}", style="yellow", markup=False)
     size = out.stat().st_size
     summary = {
         "database": str(out),
@@ -56,7 +56,8 @@ def train(
     else:
         console.print(
             f"{out}: {summary['clips']} clips of {summary['persons']} persons, "
-            f"{len(recognizer.labels)} gestures, {size / 1e6:.2f} MB, method {method}"
+            f"{len(recognizer.labels)} gestures, {size / 1e6:.2f} MB, method {method}",
+            markup=False,
         )
 
 
@@ -68,11 +69,12 @@ def described(dataset: Path, method: str, jobs: int) -> tuple[Any, list[str]]:
     """
     from nao_sim.cli.progress import stages
     from nao_sim.gestures.vocabulary import vocabulary
+    from nao_sim.processes import joblib_workers
     from recognizer.evaluation.dataset import build_database, read_manifest
 
     entries = read_manifest(dataset)
     families = {name: entry.family for name, entry in vocabulary().items() if entry.family in ("small", "large")}
-    with stages() as show:
+    with stages() as show, joblib_workers():
         return build_database(
             entries,
             families,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import cv2
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nao_sim.episodes.errors import EpisodeError
+from nao_sim.files import whole_file
 from nao_sim.motion import MotionLog
 from nao_sim.motion.self_distance import place_geoms
 from nao_sim.rendering import gl_problem
@@ -65,6 +65,17 @@ def frames_of(
     return shown
 
 
+def _frames_in(path: Path) -> int:
+    """Return how many pictures can be read from a video."""
+    film, count = cv2.VideoCapture(str(path)), 0
+    try:
+        while film.isOpened() and film.grab():
+            count += 1
+    finally:
+        film.release()
+    return count
+
+
 def film_robot(model: mujoco.MjModel, log: MotionLog, path: Path, size: tuple[int, int] = SIZE) -> None:
     """Write a motion as a video in real time, 25 frames a second; an older file is replaced as a whole.
 
@@ -73,16 +84,17 @@ def film_robot(model: mujoco.MjModel, log: MotionLog, path: Path, size: tuple[in
     """
     if not path.absolute().parent.is_dir():
         raise EpisodeError(f"{path} cannot be written: {path.parent} is no folder; make it first")
-    frames = frames_of(model, log, np.arange(0.0, log.time[-1], 1.0 / FPS), size)
-    beside = path.with_name(f".{path.stem}.part{path.suffix or '.mp4'}")
-    writer = cv2.VideoWriter(str(beside), cv2.VideoWriter.fourcc(*"mp4v"), FPS, size)
-    try:
-        if not writer.isOpened():
-            raise EpisodeError(f"{path} cannot be written as a video; choose a writable place and the suffix .mp4")
-        for frame in frames:
-            writer.write(frame)
-        writer.release()
-        os.replace(beside, path)
-    finally:
-        writer.release()
-        beside.unlink(missing_ok=True)
+    # A motion shorter than a picture still has one.
+    frames = frames_of(model, log, np.arange(0.0, max(log.time[-1], 0.5 / FPS), 1.0 / FPS), size)
+    with whole_file(path, ".mp4") as beside:
+        writer = cv2.VideoWriter(str(beside), cv2.VideoWriter.fourcc(*"mp4v"), FPS, size)
+        try:
+            if not writer.isOpened():
+                raise EpisodeError(f"{path} cannot be written as a video; choose a writable place and the suffix .mp4")
+            for frame in frames:
+                writer.write(frame)
+        finally:
+            writer.release()
+        # OpenCV does not say that a disk was full; what it wrote does.
+        if _frames_in(beside) != len(frames):
+            raise EpisodeError(f"{path} could not be written whole; is the disk full? Free some space first")

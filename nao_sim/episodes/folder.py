@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -11,7 +12,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from nao_sim.episodes.errors import EpisodeError
+from nao_sim.processes import alive
 
+_FORMER = "former"
 _MEND = {
     errno.ENOSPC: "free some space or choose another place with --out",
     errno.EDQUOT: "free some space or choose another place with --out",
@@ -73,7 +76,8 @@ def complete_folder(folder: Path, marker: str) -> Iterator[Path]:
     with _errors_named(folder):
         _refuse_to_overwrite(folder, marker)
         folder.parent.mkdir(parents=True, exist_ok=True)
-        work = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+        _sweep(folder)
+        work = Path(tempfile.mkdtemp(prefix=_beside(folder), dir=folder.parent))
         try:
             yield work
             work.chmod(0o777 & ~_umask())
@@ -88,11 +92,29 @@ def _umask() -> int:
     return mask
 
 
+def _beside(folder: Path) -> str:
+    """Return how the hidden folders of this process beside a result are called, up to what makes each unique."""
+    return f".{folder.name}-{os.getpid()}-"
+
+
+def _sweep(folder: Path) -> None:
+    """Remove what runs that were killed have left beside a result, and put back one that was being replaced."""
+    left = re.compile(re.escape(f".{folder.name}-") + r"(\d+)-\w{8}")
+    for path in list(folder.parent.iterdir()):
+        match = left.fullmatch(path.name)
+        if match is None or not path.is_dir() or alive(int(match[1])):
+            continue
+        former = path / _FORMER
+        if former.is_dir() and not folder.exists():
+            former.rename(folder)
+        shutil.rmtree(path, ignore_errors=True)
+
+
 def _replace(folder: Path, work: Path) -> None:
     if not folder.exists():
         work.rename(folder)
         return
-    old = Path(tempfile.mkdtemp(prefix=f".{folder.name}-old-", dir=folder.parent))
-    folder.rename(old / folder.name)
+    old = Path(tempfile.mkdtemp(prefix=_beside(folder), dir=folder.parent))
+    folder.rename(old / _FORMER)
     work.rename(folder)
     shutil.rmtree(old, ignore_errors=True)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nao_sim.files import whole_file
 from nao_sim.robot import ACTUATED
 
 
@@ -43,9 +43,5 @@ def draw_range_use(use: Mapping[str, NDArray[np.float64]], path: Path) -> None:
     axes.set_title("Use of each joint's range")
     if len(use) <= 12:
         figure.legend(ncols=4, fontsize="small", loc="outside lower center", frameon=False)
-    beside = path.with_name(f".{path.stem}.part{path.suffix}")
-    try:
+    with whole_file(path) as beside:
         figure.savefig(beside, dpi=110)
-        os.replace(beside, path)
-    finally:
-        beside.unlink(missing_ok=True)

@@ -71,6 +71,7 @@ class Canvas:
 
     def close(self) -> None:
         """Free the OpenGL context; the canvas cannot draw any more."""
+        self._gl.make_current()
         self._context.free()
         self._gl.free()
 

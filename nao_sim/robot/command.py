@@ -14,8 +14,18 @@ from numpy.typing import ArrayLike
 
 from nao_sim.robot.anti_collision import clamp_pairs, hold_pairs
 from nao_sim.robot.errors import AngleRangeError, TargetError
-from nao_sim.robot.joints import ACTUATED, joint_table, resolve
+from nao_sim.robot.joints import ACTUATED, BODY, joint_table, resolve
 from nao_sim.robot.tolerance import SOFTNESS_RAD
+
+_FULL = np.ones(len(ACTUATED))
+_FULL.setflags(write=False)
+
+
+def _miscounted(values: np.ndarray, joints: tuple[str, ...]) -> str:
+    """Say that there are not as many angles as joints; who gives one per motor for the body is told the name."""
+    if values.shape == (len(ACTUATED),) and len(joints) == len(BODY):
+        return f"{values.size} angles for the {len(BODY)} joints of 'Body'; one per motor is 'JointActuators'"
+    return f"{values.size} angles for {len(joints)} joints ({', '.join(joints)}); give one each"
 
 
 @lru_cache(maxsize=256)
@@ -62,25 +72,28 @@ class CommandLayer:
         self.targets = clamp_pairs(np.clip(angles, self.low, self.high))
         self.setpoint = self.targets.copy()
         self._travel = np.zeros(len(ACTUATED))
+        self._share = _FULL
 
     def state(self) -> np.ndarray:
-        """Return ``(75,)`` what the layer remembers: targets, set-point, and how far that went in the last period."""
-        return np.concatenate([self.targets, self.setpoint, self._travel])
+        """Return ``(100,)`` what the layer remembers: targets, set-point, its last travel, and shares of speed."""
+        return np.concatenate([self.targets, self.setpoint, self._travel, self._share])
 
     def restore(self, state: np.ndarray) -> None:
         """Go on from what :meth:`state` returned."""
-        self.targets, self.setpoint, self._travel = np.array(state, dtype=float).reshape(3, len(ACTUATED))
+        remembered = np.array(state, dtype=float).reshape(4, len(ACTUATED))
+        self.targets, self.setpoint, self._travel, self._share = remembered
 
-    def set(self, names: str | Sequence[str], angles: ArrayLike) -> None:
+    def set(self, names: str | Sequence[str], angles: ArrayLike, speed: float = 1.0) -> None:
         """Set the targets of some joints, rad (hands: open fraction).
 
         Args:
             names: a joint, a chain (``"Head"``, ``"LArm"``, ``"Body"`` ...), or a list of them.
             angles: one number for all of them, or one per joint.
+            speed: share of their motors' nominal speed, above 0 and at most 1.
 
         Raises:
             UnknownNameError: no such joint or chain.
-            TargetError: a wrong number of angles, or one that is not finite.
+            TargetError: a wrong number of angles, one that is not finite, or no such share.
             AngleRangeError: an angle beyond its joint's range by more than the joints' own softness (what is nearer
                 is put on the limit). Nothing is changed then.
         """
@@ -89,13 +102,18 @@ class CommandLayer:
         if values.ndim == 0:
             values = np.full(len(joints), float(values))
         if values.shape != (len(joints),):
-            raise TargetError(f"{values.size} angles for {len(joints)} joints ({', '.join(joints)}); give one each")
+            raise TargetError(_miscounted(values, joints))
+        if not 0 < speed <= 1:
+            raise TargetError(f"a speed of {speed:g}; give a share of the nominal speed, above 0 and at most 1")
         targets = self.targets.copy()
         targets[rows] = values[places]
+        share = self._share.copy()
+        share[rows] = speed
         self.set_all(targets)
+        self._share = share
 
     def set_all(self, targets: np.ndarray) -> None:
-        """Set all ``(25,)`` targets at once, in ``ACTUATED`` order; raises as :meth:`set` does."""
+        """Set all ``(25,)`` targets at once, in ``ACTUATED`` order, at full speed; raises as :meth:`set` does."""
         targets = np.asarray(targets, dtype=float)
         if targets.shape != self.targets.shape:
             raise TargetError(f"targets have shape {targets.shape}; give {self.targets.shape}, one per motor")
@@ -104,6 +122,7 @@ class CommandLayer:
         if inside.tobytes() != targets.tobytes():
             self._forgive(targets, inside)
         self.targets = clamp_pairs(inside)
+        self._share = _FULL
 
     def _forgive(self, targets: np.ndarray, inside: np.ndarray) -> None:
         """Raise unless targets are outside by no more than the joints' own softness."""
@@ -136,7 +155,7 @@ class CommandLayer:
             setpoint, targets: ``(..., 25)`` now, and where to.
             travel: ``(..., 25)`` how far the set-point went in the period before, rad.
         """
-        most = np.minimum(self._most, travel + self._gain)
+        most = np.minimum(self._most * self._share, travel + self._gain)
         change = targets - setpoint
         room = np.abs(np.where(change > 0, self.high, self.low) - setpoint)
         # A joint may run only as fast as it can still stop before the end of its range.

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 
 from nao_sim.robot.camera import HEIGHT_PX, RATE_HZ, WIDTH_PX, Cameras
 from nao_sim.robot.command import CommandLayer
-from nao_sim.robot.errors import SceneError, UnstableError
+from nao_sim.robot.errors import SceneError, TargetError, UnstableError
 from nao_sim.robot.falling import FallDetector
-from nao_sim.robot.joints import ACTUATED, BODY
+from nao_sim.robot.joints import ACTUATED, BODY, resolve
 from nao_sim.robot.model import model_spec
 from nao_sim.robot.placement import place
 from nao_sim.robot.postures import posture as posture_named
@@ -123,20 +123,54 @@ class Nao:
         self._resets += 1
         mujoco.mj_forward(self.model, self.data)
 
-    def set_angles(self, names: str | Sequence[str], angles_rad: ArrayLike) -> None:
-        """Ask joints to go to angles, as fast as their motors' nominal speed allows.
+    def set_angles(self, names: str | Sequence[str], angles_rad: ArrayLike, speed: float = 1.0) -> None:
+        """Ask joints to go to angles, as fast as their motors' nominal speed allows, or a share of it.
 
         Args:
             names: a joint, a chain (``Head``, ``LArm``, ``RArm``, ``LLeg``, ``RLeg``, ``Arms``, ``Legs``, ``Body``,
                 ``JointActuators``), or a list of them.
             angles_rad: one number for all, or one per joint; hands take 0 (closed) to 1 (open).
+            speed: share of the nominal speed, above 0 and at most 1; NAOqi's ``fractionMaxSpeed``.
 
         Raises:
             UnknownNameError: no such joint; the message names the nearest.
             AngleRangeError: an angle beyond its range; the message has joint, value and both bounds.
             TargetError: not finite, or not one number per joint.
         """
-        self._command.set(names, angles_rad)
+        self._command.set(names, angles_rad, speed)
+
+    def get_angles(self, names: str | Sequence[str] = "Body") -> np.ndarray:
+        """Return ``(n,)`` measured angles of joints or chains, rad (hands: open fraction), in NAOqi's order.
+
+        Args:
+            names: as for :meth:`set_angles`; ``"Body"`` is all 26, both HipYawPitch joints among them.
+
+        Raises:
+            UnknownNameError: no such joint; the message names the nearest.
+        """
+        addresses = [self.model.jnt_qposadr[self.wiring.joint(name)] for name in resolve(names)]
+        return self.data.qpos[addresses]
+
+    def interpolate(self, names: str | Sequence[str], angles_rad: ArrayLike, seconds: float) -> None:
+        """Bring joints to angles in a time, evenly, and come back when it is over; NAOqi's ``angleInterpolation``.
+
+        Args:
+            names, angles_rad: as for :meth:`set_angles`.
+            seconds: how long it shall take; the motors' nominal speed may need longer.
+
+        Raises:
+            UnknownNameError, AngleRangeError, TargetError: as :meth:`set_angles`; nothing has moved then.
+            UnstableError: as :meth:`step`.
+        """
+        if not 0 < seconds < np.inf:
+            raise TargetError(f"a motion of {seconds} s; give seconds above 0")
+        start = self.targets
+        self.set_angles(names, angles_rad)
+        goal = self.targets
+        periods = max(1, round(seconds / CONTROL_PERIOD_S))
+        for period in range(1, periods + 1):
+            self.set_targets(start + (goal - start) * period / periods)
+            self.step()
 
     def set_targets(self, targets: np.ndarray) -> None:
         """Set all ``(25,)`` targets in ``ACTUATED`` order; the fast form of :meth:`set_angles`, same checks."""
@@ -224,7 +258,7 @@ class Nao:
         :meth:`video` gives pictures at the camera's documented rate instead.
 
         Args:
-            name: ``"CameraTop"``, ``"CameraBottom"``, a camera of the scene, or a free camera.
+            name: ``"CameraTop"``, ``"CameraBottom"``, ``"outside"``, a camera of the scene, or a free camera.
             width, height: pixels.
             fine: with shadows, the scene's own sky and smoothed edges, at several times the cost.
 
@@ -256,7 +290,7 @@ class Nao:
             UnknownNameError: no such camera.
         """
         if isinstance(name, str):
-            self._cameras.fixed(name)
+            self._cameras.known(name)
         return Video(lambda: (self._resets, self.time), lambda: self.camera(name, width, height, fine), rate_hz)
 
     def close(self) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nao_sim.errors import NaoSimError
+from nao_sim.files import whole_file
 from nao_sim.robot.validation import JointReport
 
 _INK, _SHELL, _ACCENT, _BAD = "#33373d", "#d5d9de", "#e8600f", "#b00020"
@@ -49,4 +50,5 @@ def draw_ranges(reports: Sequence[JointReport], path: Path, title: str) -> None:
     axes.set_title(title, loc="left")
     axes.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower right", ncols=3, frameon=False)
-    figure.savefig(path, dpi=110)
+    with whole_file(path) as beside:
+        figure.savefig(beside, dpi=110)

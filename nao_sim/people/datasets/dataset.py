@@ -26,6 +26,7 @@ from nao_sim.people.filming.photos import Photo, draw_photo, postures, write_pho
 from nao_sim.people.filming.shots import Shot, draw_cast, draw_shot
 from nao_sim.people.filming.stage import Stage
 from nao_sim.people.performance.motions import IRRELEVANT, motions
+from nao_sim.processes import end_children, end_with_parent
 from nao_sim.resources import resource
 
 CHILDREN = 1 / 3
@@ -180,7 +181,8 @@ def _film_one(job: Job, out: Path) -> int:
 def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[int], None]) -> None:
     # An OpenGL context does not survive a fork.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool:
+    mine = (os.getpid(),)
+    with ProcessPoolExecutor(processes, mp_context=context, initializer=end_with_parent, initargs=mine) as pool:
         try:
             for future in as_completed([pool.submit(_film_one, job, out) for job in jobs]):
                 done(future.result())
@@ -190,6 +192,7 @@ def _film_many(jobs: Sequence[Job], out: Path, processes: int, done: Callable[[i
             ) from error
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
+            end_children()
             raise
 
 
