@@ -22,20 +22,21 @@ from nao_sim.gestures import library, vocabulary
 _NAME = re.compile(r"[^\W_][\w.-]{0,39}")
 
 
-def read_session(path: str | Path) -> SessionFile:
+def read_session(path: str | Path, films: Path | None = None) -> SessionFile:
     """Read a session file.
 
     Args:
-        path: the TOML file; films in it are relative to its folder.
+        path: the TOML file.
+        films: the folder that films in it are relative to; None: the one it stands in.
 
     Raises:
         GameError: missing, no TOML, or impossible; one line with the key and the mend.
     """
     path = Path(path)
-    top = Keys(_parse(path), "", path.name)
+    top, folder = Keys(_parse(path), "", path.name), films or path.parent
     study, game = top.table("study"), top.table("game")
     orientation, prompting, scoring = _orientation(top), _prompting(top), _scoring(top)
-    circle = tuple(_participant(row, k, path, top) for k, row in enumerate(top.tables("participant"), 1))
+    circle = tuple(_participant(row, k, path, folder) for k, row in enumerate(top.tables("participant"), 1))
     words = top.table("words")
     said = {key: words.text(key) for key in words_table() if key in words}
     words.raw("", None)
@@ -97,14 +98,14 @@ def _name(keys: Keys, key: str, default: str) -> str:
     return name
 
 
-def _participant(row: dict[str, Any], number: int, path: Path, top: Keys) -> Participant:
+def _participant(row: dict[str, Any], number: int, path: Path, folder: Path) -> Participant:
     shown = row.get("id") if isinstance(row.get("id"), str) else number
     keys = Keys(row, f"participant {shown}", path.name)
     keys.required("id", "write a pseudonym, as id = \"C07\"")
     name = _name(keys, "id", "")
     role = keys.choice("role", ROLES)
-    turns: Source = read_source(keys, "turns", path.parent, Robot() if role == "robot" else None)
-    models = read_source(keys, "models", path.parent) if "models" in keys else None
+    turns: Source = read_source(keys, "turns", folder, Robot() if role == "robot" else None)
+    models = read_source(keys, "models", folder) if "models" in keys else None
     if (role == "robot") != isinstance(turns, Robot) or isinstance(models, Robot) and role != "robot":
         mend = "leave turns out" if role == "robot" else 'give role = "robot" to the robot alone'
         raise keys.error("turns", f"does not suit role '{role}'; {mend}")

@@ -1,0 +1,72 @@
+"""What happened in one turn while it is played: what becomes its row, and what becomes its recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from nao_sim.game.play.log import Log
+from nao_sim.game.play.robot import Done
+from nao_sim.game.play.watching import Watched
+from nao_sim.game.session import Cut
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A film that somebody is seen on.
+
+    Attributes:
+        who: pseudonym.
+        start_s: when it began, seconds of the session.
+        watched: what it showed.
+        answering: whether they imitate; otherwise they model.
+        cut: the own film that it is a piece of; None: it is kept in the turn's folder.
+        attempt: number of the attempt, from 0.
+    """
+
+    who: str
+    start_s: float
+    watched: Watched
+    answering: bool
+    cut: Cut | None
+    attempt: int
+
+    @property
+    def end_s(self) -> float:
+        """When it ended, seconds of the session."""
+        return self.start_s + self.watched.seconds
+
+
+@dataclass
+class TurnRecord:
+    """Grows while a turn is played.
+
+    Attributes:
+        log: its events.
+        row: columns of :class:`nao_sim.game.tables.Turn` as they become known.
+        films: what was seen.
+        motions: what the robot did.
+        states: (lane, seconds of the session, word) for the time line.
+        notes: (seconds of the session, Markdown) for the text panel.
+    """
+
+    log: Log
+    row: dict[str, Any] = field(default_factory=dict)
+    films: list[Shown] = field(default_factory=list)
+    motions: list[Done] = field(default_factory=list)
+    states: list[tuple[str, float, str]] = field(default_factory=list)
+    notes: list[tuple[float, str]] = field(default_factory=list)
+
+    def exclude(self, reason: str, note: str = "") -> None:
+        """Call the turn no trial; the first reason stays."""
+        self.row.setdefault("excluded", reason)
+        self.row.setdefault("excluded_note", note)
+
+    @property
+    def excluded(self) -> bool:
+        """Whether the turn is no trial."""
+        return self.row.get("excluded") is not None
+
+    def say(self, note: str) -> None:
+        """Add to the turn's note."""
+        self.row["note"] = "; ".join(part for part in (self.row.get("note", ""), note) if part)
