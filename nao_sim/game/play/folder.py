@@ -17,7 +17,7 @@ import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +41,7 @@ class Played:
         phases: phases that are over.
         clock_s: how far the session's time has come.
         files: the folder that films are relative to.
+        among: what the recogniser decides between; None: all it knows.
     """
 
     session: Session | None
@@ -49,6 +50,7 @@ class Played:
     phases: list[str]
     clock_s: float
     files: Path | None
+    among: tuple[str, ...] | None = None
 
 
 class SessionFolder:
@@ -94,7 +96,7 @@ class SessionFolder:
             raise GameError(f"{self.path} holds a session already; go on with --resume or choose another --out")
         shutil.copyfile(session.path, self.path / AGREED)
         files = str(session.path.parent.absolute())
-        self._append({"session": asdict(row), "files": files, "sha256": _sha256(session.path)})
+        self._append({"session": asdict(row), "files": files, "among": session.among})
 
     def check_same(self, session: SessionFile) -> None:
         """Refuse to go on with another session file than the one begun with.
@@ -117,7 +119,7 @@ class SessionFolder:
         played = self.played()
         if played.files is None:
             raise GameError(f"{self.path} holds no session; begin one with nao-sim game SESSION.toml --out {self.path}")
-        return read_session(self.path / AGREED, played.files)
+        return replace(read_session(self.path / AGREED, played.files), among=played.among)
 
     def phase_over(self, phase: str, events: list[Event], clock_s: float) -> None:
         """Write down that a phase is over."""
@@ -156,6 +158,7 @@ class SessionFolder:
             found.clock_s = record.get("clock_s", found.clock_s)
             if "session" in record:
                 found.session, found.files = _row(Session, record["session"]), Path(record["files"])
+                found.among = None if record["among"] is None else tuple(record["among"])
             if "turn" in record:
                 found.turns.append(_row(Turn, record["turn"]))
             if "phase" in record:
@@ -178,8 +181,6 @@ class SessionFolder:
         Raises:
             GameError: no session has begun here.
         """
-        from dataclasses import replace
-
         played = self.played()
         if played.session is None:
             raise GameError(f"{self.path} holds no session; begin one with nao-sim game SESSION.toml --out {self.path}")

@@ -72,6 +72,7 @@ def play(
     with folder.claimed(), ExitStack() as stack:
         if resume:
             folder.check_same(session)
+            session = folder.agreed()
             played = folder.played()
         else:
             folder.begin(session, _row(session))

@@ -19,11 +19,12 @@ SLOWEST = 0.12
 """Below this peak, picture widths a second, nobody has made a gesture: standing people sway."""
 
 
-def movement(evidence: Evidence) -> tuple[float, float] | None:
+def movement(evidence: Evidence, certain: bool = False) -> tuple[float, float] | None:
     """Find the first and the last moment of movement.
 
     Args:
         evidence: of the recognition of the film.
+        certain: a gesture was recognised, so that somebody moved, however little (a nod).
 
     Returns:
         Seconds of the film, or None where nobody moves more than a standing person does. Half of the starts are within
@@ -34,7 +35,7 @@ def movement(evidence: Evidence) -> tuple[float, float] | None:
         return None
     times = np.array([sample.time for sample in samples])
     speeds = _speeds([sample.grey for sample in samples], np.diff(times))
-    if speeds.max() < SLOWEST:
+    if speeds.max() < SLOWEST and not certain:
         return None
     rest = float(np.percentile(speeds, 10))
     moving = np.flatnonzero(speeds > rest + OF_PEAK * (speeds.max() - rest))

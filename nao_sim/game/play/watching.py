@@ -72,8 +72,9 @@ class Watched:
 
     def movement(self) -> tuple[float, float] | None:
         """First and last moment of movement, seconds of the film; None: nobody moved, or it is a photo."""
-        evidence = None if self.recognition is None else self.recognition.evidence
-        return None if evidence is None else movement(evidence)
+        if self.recognition is None or self.recognition.evidence is None:
+            return None
+        return movement(self.recognition.evidence, certain=self.recognition.label is not None)
 
 
 class Watcher:

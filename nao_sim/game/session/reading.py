@@ -150,7 +150,11 @@ def _scoring(top: Keys) -> Scoring:
 
 
 def _among(game: Keys, gestures: tuple[str, ...]) -> tuple[str, ...] | None:
-    """Return what the recogniser decides between: by default what is in play, on either side."""
+    """Return what the recogniser decides between: by default what is in play, on either side.
+
+    An intermediate gesture, which could carry a message or none, is decided by the context (thesis, appendix 2): what
+    is in play is what may be meant.
+    """
     value = game.raw("among", "in play")
     if value == "all":
         return None
@@ -185,3 +189,15 @@ def playable(names: Iterable[str], keys: Keys, key: str) -> tuple[str, ...]:
 
 def _playable_names() -> list[str]:
     return [name for name, entry in vocabulary().items() if entry.playable]
+
+
+def checked_among(text: str) -> tuple[str, ...] | None:
+    """Read ``NAME,NAME,…`` or ``all``, as the command line has it.
+
+    Raises:
+        GameError: an unknown gesture, or one that carries no message.
+    """
+    if text.strip() == "all":
+        return None
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    return playable(names, Keys({}, "", "--among"), "it")
