@@ -18,6 +18,7 @@ class Session:
     condition: str = column("who takes part", words=CONDITIONS)
     design: str = column("what the study compares, and how", words=DESIGNS)
     duration_s: float | None = column("from t = 0 to the closing's end", unit="s", default=None)
+    study: str = column("which study it belongs to; sessions of one study and design are compared", default="")
     number: int | None = column("the child's how-manieth session; none: by date", default=None)
     assignment: str = column("how the condition, or the phase's start, was assigned", default="")
     randomised: bool = column("whether that assignment was really drawn at random", default=False)
