@@ -31,11 +31,6 @@ class Deed:
     label: str
     action: str | None = None
 
-    @property
-    def moves(self) -> bool:
-        """Whether anything is done at all."""
-        return self.action != _STILL
-
 
 class ActorPlayer:
     """Draws and films what one actor does; everything follows from seed, turn and attempt.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import threading
 import time
@@ -72,7 +73,9 @@ class CameraPlayer:
         self._thread.start()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self._stopped.set()
         self._thread.join(timeout=2.0)
         self._capture.release()
@@ -84,10 +87,8 @@ class CameraPlayer:
             if not ok:
                 break
             if self._pictures.full():
-                try:
+                with contextlib.suppress(queue.Empty):
                     self._pictures.get_nowait()
-                except queue.Empty:
-                    pass
             self._pictures.put(_Picture(time.monotonic(), frame))
 
     def begin(self) -> None:

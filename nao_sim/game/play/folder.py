@@ -38,7 +38,7 @@ class Played:
         session: the row of the session; None: not begun.
         turns: finished turns.
         events: all events.
-        phases: phases that are over.
+        phases: phases that are over, and when.
         clock_s: how far the session's time has come.
         files: the folder that films are relative to.
         among: what the recogniser decides between; None: all it knows.
@@ -47,7 +47,7 @@ class Played:
     session: Session | None
     turns: list[Turn]
     events: list[Event]
-    phases: list[str]
+    phases: dict[str, float]
     clock_s: float
     files: Path | None
     among: tuple[str, ...] | None = None
@@ -85,30 +85,34 @@ class SessionFolder:
         """Whether a session has begun here."""
         return bool(journal.read(self.path / JOURNAL))
 
-    def begin(self, session: SessionFile, row: Session) -> None:
-        """Start a session.
+    def check_empty(self) -> None:
+        """Refuse a folder in which a session has begun.
 
         Raises:
             GameError: a session stands here already.
-            EpisodeError: the folder holds other files.
         """
         if self.begun:
             raise GameError(f"{self.path} holds a session already; go on with --resume or choose another --out")
+
+    def begin(self, session: SessionFile, row: Session) -> None:
+        """Start a session; see :meth:`check_empty`."""
         shutil.copyfile(session.path, self.path / AGREED)
         files = str(session.path.parent.absolute())
         self._append({"session": asdict(row), "files": files, "among": session.among})
 
-    def check_same(self, session: SessionFile) -> None:
-        """Refuse to go on with another session file than the one begun with.
+    def agreed_again(self, session: SessionFile) -> SessionFile:
+        """Return the session begun here, for going on with it; another session file than the one begun with is refused.
 
         Raises:
-            GameError: the files differ.
+            GameError: the files differ, or no session has begun here.
         """
-        if _sha256(session.path) != _sha256(self.path / AGREED):
+        begun = self.agreed()
+        if _sha256(session.path) != _sha256(begun.path):
             raise GameError(
-                f"{session.path} differs from {self.path / AGREED}, with which the session began; "
+                f"{session.path} differs from {begun.path}, with which the session began; "
                 "go on with --resume and without a file, or begin anew with another --out"
             )
+        return begun
 
     def agreed(self) -> SessionFile:
         """Return the session file that was begun with; films stay where they were.
@@ -152,7 +156,7 @@ class SessionFolder:
         Raises:
             GameError: the journal is damaged.
         """
-        found = Played(None, [], [], [], 0.0, None)
+        found = Played(None, [], [], {}, 0.0, None)
         for record in journal.read(self.path / JOURNAL):
             found.events += [_row(Event, event) for event in record.get("events", [])]
             found.clock_s = record.get("clock_s", found.clock_s)
@@ -162,7 +166,7 @@ class SessionFolder:
             if "turn" in record:
                 found.turns.append(_row(Turn, record["turn"]))
             if "phase" in record:
-                found.phases.append(record["phase"])
+                found.phases[record["phase"]] = record["clock_s"]
         return found
 
     def ratings(self) -> tuple[Rating, ...]:
@@ -185,9 +189,21 @@ class SessionFolder:
         if played.session is None:
             raise GameError(f"{self.path} holds no session; begin one with nao-sim game SESSION.toml --out {self.path}")
         row = replace(played.session, duration_s=played.clock_s) if "closing" in played.phases else played.session
-        tables = Tables((row,), tuple(played.turns), self.ratings(), tuple(played.events))
+        events = (*played.events, *_turn_phases(played))
+        tables = Tables((row,), tuple(played.turns), self.ratings(), events)
         write_tables(self.path, tables)
         return tables
+
+
+def _turn_phases(played: Played) -> list[Event]:
+    """When the phases began and ended that consist of turns: from their first event to their last."""
+    made = []
+    for phase in dict.fromkeys(turn.phase for turn in played.turns):
+        keys = {turn.turn_id for turn in played.turns if turn.phase == phase}
+        times = [t for e in played.events if e.turn_id in keys for t in (e.start_s, e.end_s) if t is not None]
+        if times and played.session is not None:
+            made.append(Event(played.session.session, "phase", min(times), max(times), label=phase))
+    return made
 
 
 def check_new(path: Path) -> None:

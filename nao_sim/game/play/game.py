@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from nao_sim.episodes.provenance import versions
-from nao_sim.game.errors import GameError
 from nao_sim.game.play.clock import Clock
-from nao_sim.game.play.folder import Played, SessionFolder, check_new
+from nao_sim.game.play.folder import SessionFolder, check_new
 from nao_sim.game.play.log import Log
 from nao_sim.game.play.people import FilmPlayer, Player, players_of
 from nao_sim.game.play.phases import closing, orientation, rehearsal
@@ -30,7 +29,8 @@ from nao_sim.robot import Nao
 from recognizer import Recognizer
 
 Progress = Callable[[str, int, int | None], None]
-_ROBOT_LESS = ("doing", "prompt")
+RULES = "rules"
+"""What the journal calls the moment at which the rules were said and the game began."""
 
 
 def play(
@@ -71,15 +71,14 @@ def play(
         check_new(folder.path)
     with folder.claimed(), ExitStack() as stack:
         if resume:
-            folder.check_same(session)
-            session = folder.agreed()
-            played = folder.played()
+            session = folder.agreed_again(session)
         else:
+            folder.check_empty()
+        recognizer = recognizer or Recognizer.load(resource("assets", "databases", "dynamic.parquet"))
+        players = players_of(session, recognizer, stack, progress)  # may fail; nothing has begun yet
+        if not resume:
             folder.begin(session, _row(session))
-            played = folder.played()
-        if played.session is None:
-            raise GameError(f"{folder.path} holds no session; begin one without --resume")
-        run = _Run(session, folder, played, say, nao, recognizer, stack, progress)
+        run = _Run(session, folder, recognizer, players, say, nao, progress)
         try:
             run.play(told)
         finally:
@@ -119,21 +118,17 @@ class _Run:
         self,
         session: SessionFile,
         folder: SessionFolder,
-        played: Played,
+        recognizer: Recognizer,
+        players: dict[tuple[str, bool], Player],
         say: Say | None,
         nao: Nao | None,
-        recognizer: Recognizer | None,
-        stack: ExitStack,
         progress: Progress | None,
     ) -> None:
-        assert played.session is not None
-        self.session, self.folder, self.done = session, folder, played
-        self.row = played.session
-        self.progress = progress
-        recognizer = recognizer or Recognizer.load(resource("assets", "databases", "dynamic.parquet"))
+        self.session, self.folder, self.done = session, folder, folder.played()
+        assert self.done.session is not None
+        self.row = self.done.session
         watcher = Watcher(recognizer, session.among)
-        players = players_of(session.circle, recognizer, session.timeout_s, stack, progress)
-        clock = Clock(played.clock_s, session.live)
+        clock = Clock(self.done.clock_s, session.live)
         robot = None
         if session.robot is not None:
             robot = RobotPlayer(clock, nao)
@@ -146,7 +141,7 @@ class _Run:
             self._phase("orientation", orientation)
         finished = {turn.turn: turn for turn in self.done.turns}
         phase = None
-        begun = next((turn.model_start_s for turn in self.done.turns if turn.phase == "game"), None)
+        begun = self.done.phases.get(RULES)
         try:
             for turn in plan_turns(self.session, self.row.seed or 0):
                 if begun is not None and self._over(begun):
@@ -157,9 +152,8 @@ class _Run:
                     continue
                 if phase != turn.phase:
                     phase = turn.phase
-                    self._enter(phase)
                     if phase == "game" and begun is None:
-                        begun = self.table.clock.now
+                        begun = self._say_rules()
                 told(self._turn(turn))
         except KeyboardInterrupt:
             if not self.session.open_end:
@@ -182,13 +176,14 @@ class _Run:
             player.begin()
         return True
 
-    def _enter(self, phase: str) -> None:
-        """Say the game's rules when it begins."""
-        if phase == "game" and not any(turn.phase == "game" for turn in self.done.turns):
-            side = "left" if self.session.direction == "clockwise" else "right"
-            record = TurnRecord(Log(self.session.name))
-            self.table.voice.speak(record.log, "instruction", "rules", self.table.speaker, side=side)
-            self.folder.phase_over("rules", record.log.events, self.table.clock.now)
+    def _say_rules(self) -> float:
+        """Say the game's rules; returns when the game has begun."""
+        side = "left" if self.session.direction == "clockwise" else "right"
+        log = Log(self.session.name)
+        self.table.voice.speak(log, "instruction", "rules", self.table.speaker, side=side)
+        begun = self.table.clock.now
+        self.folder.phase_over(RULES, log.events, begun)
+        return begun
 
     def _phase(self, name: str, play_phase: Callable[[Table, TurnRecord], None]) -> None:
         record = TurnRecord(Log(self.session.name))
@@ -207,6 +202,8 @@ class _Run:
             play_turn(self.table, turn, record)
         except KeyboardInterrupt:
             record.exclude("aborted", "stopped by the keyboard")
+            if self.table.robot is not None:
+                self.table.robot.stand()
             keep_turn(self.folder, self.session, self.row, turn, self.table, record)
             raise
         return keep_turn(self.folder, self.session, self.row, turn, self.table, record)

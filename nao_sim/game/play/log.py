@@ -34,6 +34,4 @@ class Log:
     ) -> None:
         """Write an event down; columns as in :class:`nao_sim.game.tables.Event`."""
         end = None if end_s is None else round(end_s, 4)
-        self.events.append(
-            Event(self.session, kind, round(start_s, 4), end, who, self.turn_id, label, level, text)
-        )
+        self.events.append(Event(self.session, kind, round(start_s, 4), end, who, self.turn_id, label, level, text))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import cv2
@@ -50,7 +51,7 @@ def _speeds(greys: Sequence[NDArray[np.uint8]], seconds: NDArray[np.float64]) ->
     small = [cv2.resize(grey, (WIDTH_PX, height), interpolation=cv2.INTER_AREA) for grey in greys]
     count = max(1, round(FASTEST_SHARE * WIDTH_PX * height))
     speeds = []
-    for before, after in zip(small, small[1:], strict=False):
+    for before, after in itertools.pairwise(small):
         flow = cv2.calcOpticalFlowFarneback(before, after, None, 0.5, 3, 11, 2, 5, 1.1, 0)  # type: ignore[call-overload]
         size = np.sort(np.hypot(flow[..., 0], flow[..., 1]), axis=None)
         # What the whole picture does is the camera's, not the person's.

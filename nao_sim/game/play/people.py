@@ -11,7 +11,8 @@ from nao_sim.game.errors import GameError
 from nao_sim.game.play.actor import ActorPlayer, new_stage
 from nao_sim.game.play.camera import CameraPlayer
 from nao_sim.game.play.watching import Film
-from nao_sim.game.session import Actor, Camera, Cut, Films, LongFilm, Participant, PlannedTurn, Source, Try
+from nao_sim.game.session import Actor, Camera, Cut, Films, LongFilm, Participant, PlannedTurn, SessionFile, Source, Try
+from nao_sim.game.session.possible import films_needed, too_few
 from nao_sim.people.stage import Stage
 from recognizer import Clip, Recognizer, open_clip
 
@@ -51,12 +52,11 @@ class FilmPlayer:
     """Somebody whose turns are on films.
 
     Args:
-        who: for messages.
         films: the tries of each turn.
     """
 
-    def __init__(self, who: str, films: Films) -> None:
-        self._who, self._films = who, films
+    def __init__(self, films: Films) -> None:
+        self._films = films
         self._at = -1
 
     def begin(self) -> None:
@@ -100,18 +100,13 @@ class ActedPlayer:
 
 
 def players_of(
-    circle: tuple[Participant, ...],
-    recognizer: Recognizer,
-    timeout_s: float,
-    stack: ExitStack,
-    progress: Progress | None = None,
+    session: SessionFile, recognizer: Recognizer, stack: ExitStack, progress: Progress | None = None
 ) -> dict[tuple[str, bool], Player]:
     """Return who shows what: by pseudonym, and whether they answer (or model).
 
     Args:
-        circle: the participants; those without films, camera or actor have no player.
+        session: what was agreed; participants without films, camera or actor have no player.
         recognizer: finds the turns of a long film.
-        timeout_s: how long a camera waits.
         stack: closes cameras and the stage.
         progress: see :func:`nao_sim.game.play.play`.
 
@@ -125,36 +120,29 @@ def players_of(
             stages.append(stack.enter_context(new_stage()))
         return stages[0]
 
+    needed = films_needed(session)
+
+    def player(person: Participant, place: int, source: Source, key: str) -> Player | None:
+        if isinstance(source, LongFilm):
+            source = _stretches(person.id, source, recognizer, progress)
+            if len(source.turns) < needed[person.id, key]:
+                what = too_few(session, len(source.turns), needed[person.id, key])
+                raise GameError(f"participant {person.id}.{key} {what}")
+        if isinstance(source, Films):
+            return FilmPlayer(source)
+        if isinstance(source, Actor):
+            return ActedPlayer(ActorPlayer(source, place), stage)
+        if isinstance(source, Camera):
+            return stack.enter_context(CameraPlayer(person.id, source, session.timeout_s))
+        return None
+
     found: dict[tuple[str, bool], Player] = {}
-    for place, person in enumerate(circle):
-        answers = _player(person, person.turns, place, stage, recognizer, timeout_s, stack, progress)
-        models = answers
-        if person.models is not None:
-            models = _player(person, person.models, place, stage, recognizer, timeout_s, stack, progress)
+    for place, person in enumerate(session.circle):
+        answers = player(person, place, person.turns, "turns")
+        models = answers if person.models is None else player(person, place, person.models, "models")
         found |= {(person.id, True): answers} if answers is not None else {}
         found |= {(person.id, False): models} if models is not None else {}
     return found
-
-
-def _player(
-    person: Participant,
-    source: Source,
-    place: int,
-    stage: Callable[[], Stage],
-    recognizer: Recognizer,
-    timeout_s: float,
-    stack: ExitStack,
-    progress: Progress | None,
-) -> Player | None:
-    if isinstance(source, Films):
-        return FilmPlayer(person.id, source)
-    if isinstance(source, LongFilm):
-        return FilmPlayer(person.id, _stretches(person.id, source, recognizer, progress))
-    if isinstance(source, Actor):
-        return ActedPlayer(ActorPlayer(source, place), stage)
-    if isinstance(source, Camera):
-        return stack.enter_context(CameraPlayer(person.id, source, timeout_s))
-    return None
 
 
 def _stretches(who: str, source: LongFilm, recognizer: Recognizer, progress: Progress | None) -> Films:
@@ -179,4 +167,3 @@ def open_cut(cut: Cut) -> Clip:
     first = round((cut.from_s or 0.0) * whole.fps)
     last = None if cut.to_s is None else max(first, round(cut.to_s * whole.fps) - 1)
     return open_clip(cut.film, (first, last))
-

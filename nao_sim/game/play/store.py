@@ -61,7 +61,9 @@ def keep_turn(
         record_piece(work / PIECE, row.session, _identity(row), nao, record, made)
         for number, done in enumerate(record.motions):
             _motion(work, number, done)
-        seen = [None if s.watched.recognition is None else _plain(s.watched.recognition.to_dict()) for s in record.films]
+        seen = [
+            None if s.watched.recognition is None else _plain(s.watched.recognition.to_dict()) for s in record.films
+        ]
         summary = {"turn": asdict(made), "films": films, "seen": seen}
         (work / SUMMARY).write_text(json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")
     folder.turn_over(made, record.log.events, table.clock.now)
@@ -87,7 +89,7 @@ def _row(folder: SessionFolder, session: SessionFile, turn: PlannedTurn, record:
     shown = answer or (record.films[-1] if record.films else None)
     if shown is not None:
         cells |= _where(folder, turn.number, shown)
-    known = {key: round(value, 4) if isinstance(value, float) else value for key, value in cells.items()}
+    known: dict[str, Any] = {k: round(v, 4) if isinstance(v, float) else v for k, v in cells.items()}
     return Turn(
         turn_id=f"{session.name}/{turn.number}",
         session=session.name,
@@ -139,10 +141,7 @@ def _film(work: Path, root: Path, shown: Shown) -> dict[str, Any]:
 
 
 def _write_avi(path: Path, shown: Shown) -> None:
-    import cv2
-
-    first = cv2.imdecode(np.frombuffer(shown.watched.pictures[0], np.uint8), cv2.IMREAD_COLOR)
-    height, width = first.shape[:2]
+    width, height = shown.watched.size
     with AviWriter(path, width, height, shown.watched.fps, quality=85) as writer:
         for jpeg in shown.watched.pictures:
             writer.write_jpeg(jpeg)

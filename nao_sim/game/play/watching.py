@@ -54,7 +54,7 @@ class Watched:
         fps: of the film.
         blind: nothing could be seen on it.
         ended: ``time.perf_counter()`` when the last frame was there.
-        times: seconds of each frame where they are not evenly spaced; None: they are.
+        size: width and height of the frames, px.
     """
 
     recognition: Recognition | None = None
@@ -63,12 +63,17 @@ class Watched:
     fps: float = 25.0
     blind: bool = False
     ended: float = 0.0
-    times: list[float] | None = None
+    size: tuple[int, int] = (0, 0)
 
     @property
     def seconds(self) -> float:
         """Length of the film."""
-        return self.times[-1] + 1 / self.fps if self.times else len(self.pictures) / self.fps
+        return len(self.pictures) / self.fps
+
+    def keep(self, frame: np.ndarray) -> None:
+        """Add a frame to the pictures."""
+        self.size = (frame.shape[1], frame.shape[0])
+        self.pictures.append(cv2.imencode(".jpg", frame, _JPEG)[1].tobytes())
 
     def movement(self) -> tuple[float, float] | None:
         """First and last moment of movement, seconds of the film; None: nobody moved, or it is a photo."""
@@ -116,7 +121,7 @@ class Watcher:
                 stream.push(frame)
                 spread.append(float(frame[::8, ::8].std()))
                 # JPEG of a frame takes a millisecond or two, which a camera leaves between its pictures.
-                seen.pictures.append(cv2.imencode(".jpg", frame, _JPEG)[1].tobytes())
+                seen.keep(frame)
             seen.ended = time.perf_counter()
             seen.recognition = stream.finish(self.among)
         except RecognizerError as error:
@@ -127,7 +132,7 @@ class Watcher:
 
     def _photo(self, film: Film, seen: Watched) -> Watched:
         for frame in film.frames:
-            seen.pictures.append(cv2.imencode(".jpg", frame, _JPEG)[1].tobytes())
+            seen.keep(frame)
         seen.ended = time.perf_counter()
         try:
             seen.recognition = self._photos.recognize(str(film.still), self._postures)

@@ -66,6 +66,17 @@ def log_states(stream: rr.RecordingStream, states: Sequence[tuple[str, float, st
     stream.reset_time()
 
 
+def log_rating_lane(stream: rr.RecordingStream, lane: str) -> None:
+    """Log the names and colours of what one rater scored."""
+    import rerun as rr
+
+    states = LANES["score"]
+    labels = [name.replace(" (proposal)", "") for name, _ in states.values()]
+    colours = [colour for _, colour in states.values()]
+    config = rr.StateConfiguration(values=list(states), labels=labels, colors=colours)
+    stream.log(f"{STORY}/{lane}", config, static=True)
+
+
 def log_lanes(stream: rr.RecordingStream) -> None:
     """Log the names and colours of the lanes' states, once a session."""
     import rerun as rr

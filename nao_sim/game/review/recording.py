@@ -73,14 +73,7 @@ def _log_film(stream: rr.RecordingStream, shown: Shown) -> None:
     evidence = None if watched.recognition is None else watched.recognition.evidence
     if evidence is not None:
         moments = shown.start_s + np.array([sample.time for sample in evidence.samples])
-        log_boxes(stream, moments, [boxes * np.tile(_size(watched.pictures[0]), 2) for boxes in evidence.boxes])
-
-
-def _size(jpeg: bytes) -> np.ndarray:
-    import cv2
-
-    height, width = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR).shape[:2]
-    return np.array([width, height], float)
+        log_boxes(stream, moments, [boxes * np.tile(np.array(watched.size, float), 2) for boxes in evidence.boxes])
 
 
 def _log_motion(stream: rr.RecordingStream, nao: Nao, done: Done) -> None:

@@ -8,7 +8,7 @@ from collections import Counter
 from nao_sim.errors import did_you_mean
 from nao_sim.game.session.keys import Keys
 from nao_sim.game.session.plan import plan_turns
-from nao_sim.game.session.session import HUMANS_WHO_MODEL, Participant, SessionFile
+from nao_sim.game.session.session import HUMANS_WHO_MODEL, SessionFile
 from nao_sim.game.session.sources import Actor, Films, Source
 from nao_sim.gestures import library, vocabulary
 
@@ -40,8 +40,7 @@ def check_possible(session: SessionFile, top: Keys, study: Keys, game: Keys) -> 
     _check_shown(session, game)
     if not any(session.can_be_played(p, session.neighbour(p)) for p in session.circle):
         raise top.error("participant", "leaves no turn that anybody sees; film one who imitates")
-    if session.turns is not None:
-        _check_films(session, top)
+    _check_films(session, top)
 
 
 def _check_circle(session: SessionFile, top: Keys, study: Keys) -> None:
@@ -56,7 +55,7 @@ def _check_circle(session: SessionFile, top: Keys, study: Keys) -> None:
     adults = sum(roles[role] for role in HUMANS_WHO_MODEL)
     if session.condition == "triadic" and not (roles["robot"] and adults):
         missing = "therapist" if roles["robot"] else "robot"
-        raise study.error("condition", f'is triadic (child, therapist, robot) without a {missing}; add one')
+        raise study.error("condition", f"is triadic (child, therapist, robot) without a {missing}; add one")
     if session.condition == "dyadic" and (roles["robot"] or not adults):
         mend = 'take the robot out or write "triadic"' if roles["robot"] else "add the therapist"
         raise study.error("condition", f"is dyadic (child and therapist, no robot); {mend}")
@@ -86,17 +85,23 @@ def _check_shown(session: SessionFile, game: Keys) -> None:
             raise game.error("gestures", f"names '{unknown}', which the robot lacks{did_you_mean(unknown, library())}")
 
 
-def _check_films(session: SessionFile, top: Keys) -> None:
-    """Count the films that the agreed number of turns needs."""
+def films_needed(session: SessionFile) -> Counter[tuple[str, str]]:
+    """Count the films that the agreed number of turns needs, by pseudonym and key (``turns`` or ``models``)."""
     needed: Counter[tuple[str, str]] = Counter()
-    for turn in plan_turns(session, seed=0):
-        for person, key in ((turn.model, "models"), (turn.imitator, "turns")):
-            needed[person, key if session.participant(person).models is not None else "turns"] += 1
+    if session.turns is not None:
+        for turn in plan_turns(session, seed=0):
+            for person, key in ((turn.model, "models"), (turn.imitator, "turns")):
+                needed[person, key if session.participant(person).models is not None else "turns"] += 1
+    return needed
+
+
+def _check_films(session: SessionFile, top: Keys) -> None:
+    needed = films_needed(session)
     for person in session.circle:
         for key, source in (("turns", person.turns), ("models", person.models)):
             short = _short(source, needed[person.id, key])
             if short is not None:
-                raise top.error(f"participant {person.id}.{key}", _mend(person, session, *short))
+                raise top.error(f"participant {person.id}.{key}", too_few(session, *short))
 
 
 def _short(source: Source | None, needed: int) -> tuple[int, int] | None:
@@ -105,6 +110,9 @@ def _short(source: Source | None, needed: int) -> tuple[int, int] | None:
     return (int(given), needed) if given < needed else None
 
 
-def _mend(person: Participant, session: SessionFile, given: int, needed: int) -> str:
+def too_few(session: SessionFile, given: int, needed: int) -> str:
+    """Say that there are fewer turns on film than agreed, and what to do about it."""
     agreed = f"{session.baseline} baseline and {session.turns} game turns"
-    return f'has {given} turns on film where {agreed} need {needed}; add films ("none" where nobody moved) or play fewer'
+    return (
+        f'has {given} turns on film where {agreed} need {needed}; add films ("none" where nobody moved) or play fewer'
+    )

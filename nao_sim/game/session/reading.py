@@ -101,12 +101,12 @@ def _name(keys: Keys, key: str, default: str) -> str:
 def _participant(row: dict[str, Any], number: int, path: Path, folder: Path) -> Participant:
     shown = row.get("id") if isinstance(row.get("id"), str) else number
     keys = Keys(row, f"participant {shown}", path.name)
-    keys.required("id", "write a pseudonym, as id = \"C07\"")
+    keys.required("id", 'write a pseudonym, as id = "C07"')
     name = _name(keys, "id", "")
     role = keys.choice("role", ROLES)
     turns: Source = read_source(keys, "turns", folder, Robot() if role == "robot" else None)
     models = read_source(keys, "models", folder) if "models" in keys else None
-    if (role == "robot") != isinstance(turns, Robot) or isinstance(models, Robot) and role != "robot":
+    if (role == "robot") != isinstance(turns, Robot) or (isinstance(models, Robot) and role != "robot"):
         mend = "leave turns out" if role == "robot" else 'give role = "robot" to the robot alone'
         raise keys.error("turns", f"does not suit role '{role}'; {mend}")
     own = keys.flag("own_choice")
@@ -172,12 +172,12 @@ def playable(names: Iterable[str], keys: Keys, key: str) -> tuple[str, ...]:
     Raises:
         GameError: an unknown gesture, or one that carries no message.
     """
-    known = {**library(), **vocabulary()}
+    words, gestures = vocabulary(), library()
     names = tuple(names)
     for name in names:
-        if name not in known or known[name].family == "game":
+        if name not in words and (name not in gestures or gestures[name].family == "game"):
             raise keys.error(key, f"names an unknown gesture '{name}'{did_you_mean(name, _playable_names())}")
-        entry = vocabulary().get(name) or vocabulary().get(known[name].mirror)
+        entry = words[name] if name in words else words.get(gestures[name].mirror)
         if entry is None or not entry.playable:
             raise keys.error(
                 key,
