@@ -82,6 +82,15 @@ def log_pictures(stream: rr.RecordingStream, times: np.ndarray, jpegs: Sequence[
     stream.send_columns(f"{VIDEO}/frame", indexes=[rr.TimeColumn(TIMELINE, duration=times)], columns=columns)
 
 
+def log_no_picture(stream: rr.RecordingStream, t: float) -> None:
+    """Take the last picture and what is drawn over it away at a moment [s]."""
+    import rerun as rr
+
+    stream.set_time(TIMELINE, duration=t)
+    stream.log(VIDEO, rr.Clear(recursive=True))
+    stream.reset_time()
+
+
 def log_boxes(stream: rr.RecordingStream, time: np.ndarray, boxes: Sequence[np.ndarray]) -> None:
     """Log the boxes around moving regions (thesis ch. 3, green rectangles).
 

@@ -188,16 +188,16 @@ class _Run:
     def _phase(self, name: str, play_phase: Callable[[Table, TurnRecord], None]) -> None:
         record = TurnRecord(Log(self.session.name))
         begun = self.table.clock.now
-        record.states.append(("phase", begun, name))
+        record.states.append(("1_phase", begun, name))
         play_phase(self.table, record)
-        record.states += [(lane, self.table.clock.now, "end") for lane in ("phase", "doing")]
-        record.log.add("phase", begun, self.table.clock.now, label=name)
+        record.states += [(lane, self.table.clock.now, "end") for lane in ("1_phase", "3_doing")]
+        record.log.add("1_phase", begun, self.table.clock.now, label=name)
         keep_phase(self.folder, name, self.row, self.table.robot, record)
         self.folder.phase_over(name, record.log.events, self.table.clock.now)
 
     def _turn(self, turn: PlannedTurn) -> Turn:
         record = TurnRecord(Log(self.session.name, f"{self.session.name}/{turn.number}"))
-        record.states.append(("phase", self.table.clock.now, turn.phase))
+        record.states.append(("1_phase", self.table.clock.now, turn.phase))
         try:
             play_turn(self.table, turn, record)
         except KeyboardInterrupt:

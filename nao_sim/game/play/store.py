@@ -75,9 +75,9 @@ def _identity(row: Session) -> str:
 
 
 def _last_states(record: TurnRecord, now: float) -> list[tuple[str, float, str]]:
-    """Close the lanes of a turn."""
-    ends = [("doing", now, "end"), ("prompt", now, "end")]
-    return [("score", now, "excluded"), *ends] if record.excluded else ends
+    """Close the lanes of a turn; one that is no trial is marked as such from its first moment."""
+    ends = [(lane, now, "end") for lane in ("3_doing", "4_help", "5_proposed")]
+    return [("5_proposed", record.begun_s, "excluded"), *ends] if record.excluded else ends
 
 
 def _row(folder: SessionFolder, session: SessionFile, turn: PlannedTurn, record: TurnRecord) -> Turn:

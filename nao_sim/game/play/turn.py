@@ -57,8 +57,8 @@ def play_turn(table: Table, turn: PlannedTurn, record: TurnRecord) -> None:
         record: empty but for its log.
     """
     model, imitator = table.session.participant(turn.model), table.session.participant(turn.imitator)
-    record.states.append(("turn", table.clock.now, f"{turn.model} → {turn.imitator}: {turn.target or 'own choice'}"))
-    record.states.append(("doing", table.clock.now, "model"))
+    record.states.append(("2_turn", table.clock.now, f"{turn.model} → {turn.imitator}: {turn.target or 'own choice'}"))
+    record.states.append(("3_doing", table.clock.now, "model"))
     if model.role == "child":
         table.voice.speak(record.log, "instruction", "own_turn", table.speaker)
     seen = _model(table, turn, model, record)
@@ -68,7 +68,7 @@ def play_turn(table: Table, turn: PlannedTurn, record: TurnRecord) -> None:
             _praise(table, record)
     elif not record.excluded:
         _person_answers(table, turn, imitator, record)
-    record.states.append(("doing", table.clock.now, "end"))
+    record.states.append(("3_doing", table.clock.now, "end"))
 
 
 def _model(table: Table, turn: PlannedTurn, model: Participant, record: TurnRecord) -> Watched | None:
@@ -149,7 +149,7 @@ def _robot_answers(table: Table, turn: PlannedTurn, seen: Watched | None, record
     if seen is None:
         record.exclude("model_failed", "the robot saw no model")
         return
-    record.states.append(("doing", table.clock.now, "imitate"))
+    record.states.append(("3_doing", table.clock.now, "imitate"))
     found = seen.recognition
     answer = Answer(None, False, seen.problem) if found is None else answer_to(found, table.session.mirror)
     done = table.robot.perform(answer)
@@ -184,7 +184,7 @@ def _propose(table: Table, target: str, seen: str | None, record: TurnRecord) ->
     record.row |= {
         "auto_score": made.score, "auto_rule": scoring.rule, "auto_scale": scoring.scale, "side": made.side,
     }  # fmt: skip
-    record.states.append(("score", table.clock.now, f"score {made.score}"))
+    record.states.append(("5_proposed", table.clock.now, f"score {made.score}"))
     return made.score >= scoring.success_at
 
 
@@ -213,8 +213,8 @@ def _person_answers(table: Table, turn: PlannedTurn, imitator: Participant, reco
         if record.excluded:
             break
         record.row["prompt_level"] = level
-        record.states.append(("doing", table.clock.now, "answer"))
-        record.states.append(("prompt", table.clock.now, PROMPT_LEVELS[level]))
+        record.states.append(("3_doing", table.clock.now, "answer"))
+        record.states.append(("4_help", table.clock.now, PROMPT_LEVELS[level]))
         answered = _one_answer(table, imitator, attempt, number, target, record)
         number += 1
         declared = attempt.prompt is not None
@@ -287,6 +287,6 @@ def _praise(table: Table, record: TurnRecord) -> None:
     if not table.session.prompting.praise:
         return
     record.row["praise_s"] = table.voice.speak(record.log, "praise", "praise", table.speaker)
-    record.states.append(("doing", table.clock.now, "praise"))
+    record.states.append(("3_doing", table.clock.now, "praise"))
     if table.robot is not None:
         record.motions.append(table.robot.game_gesture("congratulate"))

@@ -63,6 +63,11 @@ class TurnRecord:
         self.row.setdefault("excluded_note", note)
 
     @property
+    def begun_s(self) -> float:
+        """When it began, seconds of the session."""
+        return self.states[0][1] if self.states else 0.0
+
+    @property
     def excluded(self) -> bool:
         """Whether the turn is no trial."""
         return self.row.get("excluded") is not None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from nao_sim.errors import did_you_mean
@@ -11,7 +11,7 @@ from nao_sim.game.play.folder import SessionFolder
 from nao_sim.game.review.lanes import log_rating_lane, log_states
 from nao_sim.game.review.layout import session_layout
 from nao_sim.game.review.recording import recording_id
-from nao_sim.game.tables import Rating, Session, Turn
+from nao_sim.game.tables import Event, Rating, Session, Turn
 from nao_sim.game.tables.scores import latest_ratings
 from nao_sim.recording.stream import recording
 
@@ -65,23 +65,40 @@ def _scored(path: Path, work: Path) -> list[Path]:
     if played.session is None or not ratings:
         return []
     file = work / f"{played.session.session}-{len(list(work.iterdir()))}.rrd"
-    _write_scores(file, played.session, played.turns, ratings)
+    _write_scores(file, played.session, played.turns, ratings, _spans(played.events))
     return [file]
 
 
-def _write_scores(file: Path, session: Session, turns: list[Turn], ratings: tuple[Rating, ...]) -> None:
+def _write_scores(
+    file: Path,
+    session: Session,
+    turns: list[Turn],
+    ratings: tuple[Rating, ...],
+    spans: Mapping[str, tuple[float, float]],
+) -> None:
     latest = latest_ratings(ratings)
     identity = recording_id(session.session, session.started)
     raters = sorted({rating.rater for rating in ratings})
     robot = any(seat.startswith("robot:") for seat in session.circle)
     with recording(file, session.session, identity, session_layout(robot)) as stream:
-        for rater in raters:
-            lane = f"scored by {rater}"
+        for number, rater in enumerate(raters, 6):
+            lane = f"{number}_scored_by_{rater}"
             log_rating_lane(stream, lane)
             states = []
             for turn in turns:
                 rating = latest.get(turn.turn_id, {}).get(rater)
-                at = turn.movement_start_s or turn.model_end_s or turn.instruction_s
-                if rating is not None and at is not None:
-                    states.append((lane, at, "excluded" if rating.score is None else f"score {rating.score}"))
+                if rating is not None and turn.turn_id in spans:
+                    start, end = spans[turn.turn_id]
+                    score = "excluded" if rating.score is None else f"score {rating.score}"
+                    states += [(lane, start, score), (lane, end, "end")]
             log_states(stream, states)
+
+
+def _spans(events: Iterable[Event]) -> dict[str, tuple[float, float]]:
+    """When each turn's first event began and its last one ended, seconds of the session."""
+    spans: dict[str, tuple[float, float]] = {}
+    for event in events:
+        if event.turn_id is not None:
+            start, end = spans.get(event.turn_id, (event.start_s, event.start_s))
+            spans[event.turn_id] = (min(start, event.start_s), max(end, event.end_s or event.start_s))
+    return spans

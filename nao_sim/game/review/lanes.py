@@ -12,43 +12,42 @@ if TYPE_CHECKING:
 
 STORY = "story"
 
-GREY = 0x808080FF
+NOTHING = 0x00000000
 _GREEN, _AMBER, _RED, _BLUE, _VIOLET, _SAND = 0x4CAF50FF, 0xFFB300FF, 0xE53935FF, 0x4F86C6FF, 0x8E6BBFFF, 0xB0A080FF
 
 LANES: dict[str, dict[str, tuple[str, int]]] = {
-    "phase": {
+    "1_phase": {
         "orientation": ("Orientation", _SAND),
         "baseline": ("Baseline, no feedback", _VIOLET),
         "game": ("Game", _BLUE),
         "closing": ("Closing", _SAND),
-        "end": ("", GREY),
+        "end": (" ", NOTHING),
     },
-    "doing": {
+    "3_doing": {
         "model": ("Model", _VIOLET),
-        "answer": ("Child or adult answers", _BLUE),
+        "answer": ("Person answers", _BLUE),
         "imitate": ("Robot imitates", _GREEN),
         "praise": ("Praise", _AMBER),
-        "end": ("", GREY),
+        "end": (" ", NOTHING),
     },
-    "prompt": {
+    "4_help": {
         "independent": ("No help", _GREEN),
         "verbal": ("Help: words", _AMBER),
         "model again": ("Help: shown again", 0xFB8C00FF),
         "partial help": ("Help: partial", 0xF4511EFF),
         "full help": ("Help: full", _RED),
-        "end": ("", GREY),
+        "end": (" ", NOTHING),
     },
-    "score": {
+    "5_proposed": {
         "score 0": ("0 (proposal)", _RED),
         "score 1": ("1 (proposal)", _GREEN),
         "score 2": ("2 (proposal)", _BLUE),
         "excluded": ("No trial", _SAND),
-        "end": ("", GREY),
+        "end": (" ", NOTHING),
     },
 }
-"""Lane → state → what the viewer calls it, and its colour. Turns are states of their own."""
-
-TURN_COLOURS = (_BLUE, _SAND)
+"""Lane → state → what the viewer calls it, and its colour. The viewer sorts lanes by their names, hence the numbers.
+Turns, in lane ``2_turn``, are states of their own."""
 
 
 def log_states(stream: rr.RecordingStream, states: Sequence[tuple[str, float, str]]) -> None:
@@ -70,7 +69,7 @@ def log_rating_lane(stream: rr.RecordingStream, lane: str) -> None:
     """Log the names and colours of what one rater scored."""
     import rerun as rr
 
-    states = LANES["score"]
+    states = LANES["5_proposed"]
     labels = [name.replace(" (proposal)", "") for name, _ in states.values()]
     colours = [colour for _, colour in states.values()]
     config = rr.StateConfiguration(values=list(states), labels=labels, colors=colours)

@@ -18,7 +18,7 @@ from nao_sim.recording.joints import log_balance, log_joints
 from nao_sim.recording.narrative import log_text
 from nao_sim.recording.robot import log_body_poses, log_shells
 from nao_sim.recording.stream import recording
-from nao_sim.recording.video import log_boxes, log_pictures
+from nao_sim.recording.video import log_boxes, log_no_picture, log_pictures
 from nao_sim.robot import ACTUATED, joint_table
 
 if TYPE_CHECKING:
@@ -53,7 +53,8 @@ def record_piece(path: Path, name: str, identity: str, nao: Nao | None, piece: T
         turn: its row; None: a phase.
     """
     with recording(path, name, identity, session_layout(nao is not None)) as stream:
-        log_states(stream, piece.states)
+        log_states(stream, sorted(piece.states, key=lambda state: state[1]))
+        log_no_picture(stream, piece.begun_s)
         for shown in piece.films:
             _log_film(stream, shown)
         for done in piece.motions:
@@ -88,8 +89,7 @@ def _log_motion(stream: rr.RecordingStream, nao: Nao, done: Done) -> None:
 def _log_words(stream: rr.RecordingStream, piece: TurnRecord, turn: Turn) -> None:
     """The turn in words: before it is over, what is asked; then what was seen, why, and how it is scored."""
     head = f"# Turn {turn.turn}: {turn.model} → {turn.imitator}\n\nasked: **{turn.target}** ({turn.phase})"
-    begun = piece.states[0][1] if piece.states else 0.0
-    log_text(stream, begun, head)
+    log_text(stream, piece.begun_s, head)
     if not piece.films:
         return
     last = piece.films[-1]
