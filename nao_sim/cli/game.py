@@ -83,9 +83,9 @@ def _agreed(session: Path | None, out: Path | None, resume: bool, among: str | N
     from dataclasses import replace
 
     from nao_sim.game.errors import GameError
-    from nao_sim.game.play import SessionFolder
     from nao_sim.game.session import read_session
     from nao_sim.game.session.reading import checked_among
+    from nao_sim.game.store import SessionFolder
 
     if session is None and not (resume and out is not None):
         mend = "--resume needs --out DIR, the session's folder" if resume else "nao-sim game --new writes one"

@@ -131,7 +131,7 @@ def _key() -> str:
 def _tell(console: Console, session: Path, as_json: bool) -> None:
     """Say what is not yet confirmed, and how far raters agree."""
     from nao_sim.game.agreement import panel_of
-    from nao_sim.game.play import SessionFolder
+    from nao_sim.game.store import SessionFolder
 
     folder = SessionFolder(session)
     with folder.claimed():

@@ -10,11 +10,11 @@ import numpy as np
 
 from nao_sim.game.session.sources import Actor
 from nao_sim.gestures import library
-from nao_sim.people.film import one_core, roll
-from nao_sim.people.motions import IRRELEVANT, motions
-from nao_sim.people.performance import perform
-from nao_sim.people.shots import COARSE, Shot, draw_cast, draw_shot
-from nao_sim.people.stage import Stage
+from nao_sim.people.filming.film import one_core, roll
+from nao_sim.people.filming.shots import COARSE, Shot, draw_cast, draw_shot
+from nao_sim.people.filming.stage import Stage
+from nao_sim.people.performance.motions import IRRELEVANT, motions
+from nao_sim.people.performance.perform import perform
 
 WIDTH, HEIGHT, FPS = 320, 240, 10.0
 _CAST = 6

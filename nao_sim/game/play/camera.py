@@ -15,8 +15,8 @@ import cv2
 import numpy as np
 
 from nao_sim.game.errors import GameError
-from nao_sim.game.play.watching import Film
 from nao_sim.game.session.sources import Camera
+from nao_sim.game.watch.watching import Film
 
 if TYPE_CHECKING:
     from nao_sim.game.play.people import Attempt

@@ -12,18 +12,18 @@ from typing import Any
 
 from nao_sim.episodes.provenance import versions
 from nao_sim.game.play.clock import Clock
-from nao_sim.game.play.folder import SessionFolder, check_new
-from nao_sim.game.play.log import Log
 from nao_sim.game.play.people import FilmPlayer, Player, players_of
 from nao_sim.game.play.phases import closing, orientation, rehearsal
 from nao_sim.game.play.robot import RobotPlayer
-from nao_sim.game.play.store import keep_phase, keep_start, keep_turn
 from nao_sim.game.play.turn import Table, play_turn
-from nao_sim.game.play.turn_record import TurnRecord
 from nao_sim.game.play.voice import Say, Voice
-from nao_sim.game.play.watching import Watcher
 from nao_sim.game.session import PlannedTurn, SessionFile, child_targets, plan_turns
+from nao_sim.game.store.folder import SessionFolder, check_new
+from nao_sim.game.store.keep import keep_phase, keep_start, keep_turn
+from nao_sim.game.store.log import Log
+from nao_sim.game.store.turn_record import TurnRecord
 from nao_sim.game.tables import Session, Tables, Turn
+from nao_sim.game.watch.watching import Watcher
 from nao_sim.resources import resource
 from nao_sim.robot import Nao
 from recognizer import Recognizer
@@ -134,7 +134,8 @@ class _Run:
             robot = RobotPlayer(clock, nao)
             robot.rehearse(rehearsal(session, watcher), progress)
         self.table = Table(session, clock, Voice(session.words, clock, say), watcher, robot, players)
-        keep_start(folder, self.row, robot)
+        self.nao = None if robot is None else robot.nao
+        keep_start(folder, self.row, self.nao)
 
     def play(self, told: Callable[[Turn], None]) -> None:
         if "orientation" not in self.done.phases:
@@ -192,7 +193,7 @@ class _Run:
         play_phase(self.table, record)
         record.states += [(lane, self.table.clock.now, "end") for lane in ("1_phase", "3_doing")]
         record.log.add("1_phase", begun, self.table.clock.now, label=name)
-        keep_phase(self.folder, name, self.row, self.table.robot, record)
+        keep_phase(self.folder, name, self.row, self.nao, record)
         self.folder.phase_over(name, record.log.events, self.table.clock.now)
 
     def _turn(self, turn: PlannedTurn) -> Turn:
@@ -204,6 +205,9 @@ class _Run:
             record.exclude("aborted", "stopped by the keyboard")
             if self.table.robot is not None:
                 self.table.robot.stand()
-            keep_turn(self.folder, self.session, self.row, turn, self.table, record)
+            self._keep(turn, record)
             raise
-        return keep_turn(self.folder, self.session, self.row, turn, self.table, record)
+        return self._keep(turn, record)
+
+    def _keep(self, turn: PlannedTurn, record: TurnRecord) -> Turn:
+        return keep_turn(self.folder, self.session, self.row, turn, self.nao, record, self.table.clock.now)

@@ -10,11 +10,12 @@ from typing import Protocol
 from nao_sim.game.errors import GameError
 from nao_sim.game.play.actor import ActorPlayer, new_stage
 from nao_sim.game.play.camera import CameraPlayer
-from nao_sim.game.play.watching import Film
 from nao_sim.game.session import Actor, Camera, Cut, Films, LongFilm, Participant, PlannedTurn, SessionFile, Source, Try
 from nao_sim.game.session.possible import films_needed, too_few
-from nao_sim.people.stage import Stage
-from recognizer import Clip, Recognizer, open_clip
+from nao_sim.game.watch.cuts import open_cut
+from nao_sim.game.watch.watching import Film
+from nao_sim.people.filming.stage import Stage
+from recognizer import Recognizer
 
 Progress = Callable[[str, int, int | None], None]
 
@@ -157,13 +158,3 @@ def _stretches(who: str, source: LongFilm, recognizer: Recognizer, progress: Pro
     if not turns:
         raise GameError(f"{source.film}: nobody moves in it; write the turns of {who} down as cuts")
     return Films(turns, source.starts_at_model_end)
-
-
-def open_cut(cut: Cut) -> Clip:
-    """Open a piece of a film."""
-    whole = open_clip(cut.film)
-    if cut.from_s is None and cut.to_s is None:
-        return whole
-    first = round((cut.from_s or 0.0) * whole.fps)
-    last = None if cut.to_s is None else max(first, round(cut.to_s * whole.fps) - 1)
-    return open_clip(cut.film, (first, last))

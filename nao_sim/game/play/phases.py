@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from nao_sim.episodes.episode import Answer
 from nao_sim.episodes.imitate import answer_to_label
 from nao_sim.game.play.turn import Table
-from nao_sim.game.play.turn_record import TurnRecord
-from nao_sim.game.play.watching import Watcher
 from nao_sim.game.session import SessionFile
+from nao_sim.game.store.turn_record import TurnRecord
+from nao_sim.game.watch.watching import Watcher
 from nao_sim.gestures import vocabulary
 
 GREETING = "bye_right"

@@ -4,42 +4,22 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
 from nao_sim.episodes.episode import Answer
 from nao_sim.episodes.imitate import gesture_of
 from nao_sim.game.play.clock import Clock
+from nao_sim.game.store.turn_record import Done
 from nao_sim.gestures import Prepared, find_gesture, prepare
 from nao_sim.gestures.act import come_home
-from nao_sim.motion import MotionLog, Trajectory, perform
+from nao_sim.motion import Trajectory, perform
 from nao_sim.robot import Nao
 
 Progress = Callable[[str, int, int | None], None]
 
 STRAYED_M = 0.05
 """Further than this from where it stood, the robot is put back between turns."""
-
-
-@dataclass(frozen=True)
-class Done:
-    """A motion in the session.
-
-    Attributes:
-        start_s: when it began, seconds of the session.
-        log: what the body did.
-        began: ``time.perf_counter()`` of the first command.
-    """
-
-    start_s: float
-    log: MotionLog
-    began: float
-
-    @property
-    def end_s(self) -> float:
-        """When it ended, seconds of the session."""
-        return self.start_s + float(self.log.time[-1])
 
 
 class RobotPlayer:

@@ -10,12 +10,12 @@ from nao_sim.episodes.imitate import answer_to
 from nao_sim.game.play.clock import Clock
 from nao_sim.game.play.people import Attempt, Player
 from nao_sim.game.play.robot import RobotPlayer
-from nao_sim.game.play.turn_record import Shown, TurnRecord
 from nao_sim.game.play.voice import Voice
-from nao_sim.game.play.watching import Watched, Watcher
-from nao_sim.game.scoring.related import propose
 from nao_sim.game.session import Participant, PlannedTurn, Robot, SessionFile
+from nao_sim.game.session.related import propose
+from nao_sim.game.store.turn_record import Shown, TurnRecord
 from nao_sim.game.tables.words import PROMPT_LEVELS
+from nao_sim.game.watch.watching import Watched, Watcher
 
 MODEL_AGAIN = 2
 

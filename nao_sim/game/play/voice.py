@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from nao_sim.game.play.clock import Clock
-from nao_sim.game.play.log import Log
+from nao_sim.game.store.log import Log
 from nao_sim.game.words import words_table
 
 Say = Callable[[str], None]

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from nao_sim.errors import did_you_mean
 from nao_sim.game.errors import GameError
-from nao_sim.game.play.folder import SessionFolder
-from nao_sim.game.review.lanes import log_rating_lane, log_states
-from nao_sim.game.review.layout import session_layout
-from nao_sim.game.review.recording import recording_id
+from nao_sim.game.store.folder import SessionFolder
+from nao_sim.game.store.lanes import log_rating_lane, log_states
+from nao_sim.game.store.layout import session_layout
+from nao_sim.game.store.recording import recording_id
 from nao_sim.game.tables import Event, Rating, Session, Turn
 from nao_sim.game.tables.scores import latest_ratings
 from nao_sim.recording.stream import recording

@@ -12,12 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from nao_sim.game.errors import GameError
-from nao_sim.game.play.folder import SessionFolder
-from nao_sim.game.play.people import open_cut
 from nao_sim.game.session import Cut
+from nao_sim.game.store.folder import SessionFolder
 from nao_sim.game.tables import Rating, Session, Turn
 from nao_sim.game.tables.scores import AUTO
-from nao_sim.people.avi import AviWriter
+from nao_sim.game.watch.cuts import open_cut
+from nao_sim.people.filming.avi_writer import AviWriter
 
 
 @dataclass(frozen=True)

@@ -12,40 +12,44 @@ import numpy as np
 
 from nao_sim.episodes.folder import complete_folder
 from nao_sim.episodes.table import write_table
-from nao_sim.game.play.folder import SessionFolder
-from nao_sim.game.play.robot import Done, RobotPlayer
-from nao_sim.game.play.turn import Table
-from nao_sim.game.play.turn_record import Shown, TurnRecord
-from nao_sim.game.review.recording import record_piece, record_start, recording_id
 from nao_sim.game.session import PlannedTurn, SessionFile
+from nao_sim.game.store.folder import SessionFolder
+from nao_sim.game.store.recording import record_piece, record_start, recording_id
+from nao_sim.game.store.turn_record import Done, Shown, TurnRecord
 from nao_sim.game.tables import Session, Turn
-from nao_sim.people.avi import AviWriter
-from nao_sim.robot import ACTUATED
+from nao_sim.people.filming.avi_writer import AviWriter
+from nao_sim.robot import ACTUATED, Nao
 
 START, PIECE, SUMMARY, MOTION = "start.rrd", "turn.rrd", "turn.json", "robot.parquet"
 PHASES = "phases"
 
 
-def keep_start(folder: SessionFolder, row: Session, robot: RobotPlayer | None) -> None:
+def keep_start(folder: SessionFolder, row: Session, nao: Nao | None) -> None:
     """Write what stands still in the session's recording, unless it is there."""
     path = folder.path / START
     if not path.exists():
         part = path.with_name(f".{START}.part")
-        record_start(part, row.session, _identity(row), None if robot is None else robot.nao)
+        record_start(part, row.session, _identity(row), nao)
         os.replace(part, path)
 
 
-def keep_phase(folder: SessionFolder, name: str, row: Session, robot: RobotPlayer | None, record: TurnRecord) -> None:
+def keep_phase(folder: SessionFolder, name: str, row: Session, nao: Nao | None, record: TurnRecord) -> None:
     """Write the recording of a phase around the game."""
     (folder.path / PHASES).mkdir(exist_ok=True)
     path = folder.path / PHASES / f"{name}.rrd"
     part = path.with_name(f".{name}.part")
-    record_piece(part, row.session, _identity(row), None if robot is None else robot.nao, record, None)
+    record_piece(part, row.session, _identity(row), nao, record, None)
     os.replace(part, path)
 
 
 def keep_turn(
-    folder: SessionFolder, session: SessionFile, row: Session, turn: PlannedTurn, table: Table, record: TurnRecord
+    folder: SessionFolder,
+    session: SessionFile,
+    row: Session,
+    turn: PlannedTurn,
+    nao: Nao | None,
+    record: TurnRecord,
+    now: float,
 ) -> Turn:
     """Write a turn: its folder first, then its line in the journal, from where on it counts.
 
@@ -53,11 +57,10 @@ def keep_turn(
         The turn's row.
     """
     target = folder.turn_folder(turn.number)
-    record.states += _last_states(record, table.clock.now)
+    record.states += _last_states(record, now)
     made = _row(folder, session, turn, record)
     with complete_folder(target, SUMMARY) as work:
         films = [_film(work, folder.path, shown) for shown in record.films]
-        nao = None if table.robot is None else table.robot.nao
         record_piece(work / PIECE, row.session, _identity(row), nao, record, made)
         for number, done in enumerate(record.motions):
             _motion(work, number, done)
@@ -66,7 +69,7 @@ def keep_turn(
         ]
         summary = {"turn": asdict(made), "films": films, "seen": seen}
         (work / SUMMARY).write_text(json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")
-    folder.turn_over(made, record.log.events, table.clock.now)
+    folder.turn_over(made, record.log.events, now)
     return made
 
 

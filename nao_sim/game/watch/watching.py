@@ -10,11 +10,11 @@ from functools import cached_property
 import cv2
 import numpy as np
 
-from nao_sim.game.play.movement import movement
+from nao_sim.game.watch.movement import movement
 from nao_sim.gestures import vocabulary
 from nao_sim.resources import resource
 from recognizer import Clip, Recognition, Recognizer, RecognizerError
-from recognizer.static import PhotoRecognizer
+from recognizer.postures import PhotoRecognizer
 
 BLIND_GREY = 6.0
 """A picture whose grey levels spread less than this (standard deviation) shows nothing: a lid, darkness, glare."""

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nao_sim.episodes.record import decision_text
-from nao_sim.game.play.robot import Done
-from nao_sim.game.play.turn_record import Shown, TurnRecord
-from nao_sim.game.review.lanes import log_lanes, log_states
-from nao_sim.game.review.layout import session_layout
+from nao_sim.game.store.lanes import log_lanes, log_states
+from nao_sim.game.store.layout import session_layout
+from nao_sim.game.store.turn_record import Done, Shown, TurnRecord
 from nao_sim.game.tables import Turn
 from nao_sim.recording.joints import log_balance, log_joints
 from nao_sim.recording.narrative import log_text

@@ -23,8 +23,8 @@ from typing import Any
 
 from nao_sim.episodes.folder import check_place
 from nao_sim.game.errors import GameError
-from nao_sim.game.play import journal
 from nao_sim.game.session import SessionFile, read_session
+from nao_sim.game.store import journal
 from nao_sim.game.tables import Event, Rating, Session, Tables, Turn, write_tables
 
 JOURNAL, AGREED, TURNS, RATINGS, LOCK = "journal.jsonl", "session.toml", "turns", "ratings", ".lock"

@@ -5,10 +5,30 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from nao_sim.game.play.log import Log
-from nao_sim.game.play.robot import Done
-from nao_sim.game.play.watching import Watched
 from nao_sim.game.session import Cut
+from nao_sim.game.store.log import Log
+from nao_sim.game.watch.watching import Watched
+from nao_sim.motion import MotionLog
+
+
+@dataclass(frozen=True)
+class Done:
+    """A motion in the session.
+
+    Attributes:
+        start_s: when it began, seconds of the session.
+        log: what the body did.
+        began: ``time.perf_counter()`` of the first command.
+    """
+
+    start_s: float
+    log: MotionLog
+    began: float
+
+    @property
+    def end_s(self) -> float:
+        """When it ended, seconds of the session."""
+        return self.start_s + float(self.log.time[-1])
 
 
 @dataclass(frozen=True)

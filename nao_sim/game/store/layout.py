@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from nao_sim.game.review.lanes import STORY
+from nao_sim.game.store.lanes import STORY
 from nao_sim.recording.layout import joint_tabs, robot_view
 from nao_sim.recording.stream import TIMELINE
 from nao_sim.recording.video import VIDEO
