@@ -192,7 +192,7 @@ class _Run:
         record.states.append(("1_phase", begun, name))
         play_phase(self.table, record)
         record.states += [(lane, self.table.clock.now, "end") for lane in ("1_phase", "3_doing")]
-        record.log.add("1_phase", begun, self.table.clock.now, label=name)
+        record.log.add("phase", begun, self.table.clock.now, label=name)
         keep_phase(self.folder, name, self.row, self.nao, record)
         self.folder.phase_over(name, record.log.events, self.table.clock.now)
 
