@@ -20,6 +20,7 @@ COMMANDS = {
     "gestures": "gestures",
     "imitate": "imitate",
     "recognize": "recognize",
+    "report": "report",
     "train": "train",
     "play": "play",
     "stress": "stress",

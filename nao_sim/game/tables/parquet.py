@@ -11,7 +11,7 @@ from nao_sim.game.errors import GameError
 from nao_sim.game.tables.schema import Row, TableKind, arrow_schema
 
 
-def to_parquet(kind: TableKind, rows: Sequence[Row], derived: Sequence[dict[str, Any]] = ()) -> bytes:
+def to_parquet(kind: TableKind, rows: Sequence[object], derived: Sequence[dict[str, Any]] = ()) -> bytes:
     """Return rows, and beside each its derived cells if the kind has any, as the bytes of a file."""
     import pyarrow as pa
     import pyarrow.parquet as pq
