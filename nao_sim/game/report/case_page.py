@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from nao_sim.game.report.axes import Frame
 from nao_sim.game.report.svg import Drawing
-from nao_sim.game.report.words import percent, points
+from nao_sim.game.report.words import percent, points, signed
 from nao_sim.game.statistics import PhasePair
 from nao_sim.game.study import ChildCase, StudyResult, child_cases
 from nao_sim.game.study.single_case import FEWEST_POINTS
@@ -66,7 +66,7 @@ def _row(child: str, pair: PhasePair) -> OverlapRow:
     trend = "one point has no trend"
     notes = []
     if pair.baseline_tau is not None and pair.baseline_slope is not None:
-        trend = f"Tau {float(pair.baseline_tau):+.2f}, {points(pair.baseline_slope)} points a step"
+        trend = f"Tau {signed(float(pair.baseline_tau))}, {points(pair.baseline_slope)} points a step"
         if pair.baseline_tau > 0:
             notes.append("the baseline rises by itself, so NAP overstates")
     if min(a, b) < FEWEST_POINTS:
@@ -76,7 +76,7 @@ def _row(child: str, pair: PhasePair) -> OverlapRow:
         f"{a} and {b}",
         f"{percent(sum(pair.baseline) / a)} and {percent(sum(pair.game) / b)}",
         f"{float(pair.nap):.2f}",
-        f"{float(pair.tau):+.2f}",
+        signed(float(pair.tau)),
         trend,
         "; ".join(notes),
     )

@@ -18,12 +18,13 @@ from nao_sim.game.tables import Event, Session
 
 @dataclass(frozen=True)
 class GestureCount:
-    """How often a gesture was answered: independently, with any help, of how many valid turns."""
+    """How often a gesture was answered: independently of those counted for that, with any help of the valid ones."""
 
     title: str
     independent: int
+    counted: int
     answered: int
-    turns: int
+    valid: int
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class ChildPage:
     with_help: str
     before: tuple[str, ...]
     unconfirmed: int
+    turns: int
     strips: tuple[tuple[str, tuple[StripCell, ...]], ...]
     gestures: tuple[GestureCount, ...]
     speech: str
@@ -78,6 +80,7 @@ def child_page(gathered: Gathered, session: Session, child: str, trials: Sequenc
         with_help=f"{sum(t.success for t in of_main)} of {sum(t.valid for t in of_main)} with or without help",
         before=_before(earlier, here, main),
         unconfirmed=sum(t.proposed for t in of_main),
+        turns=len(here),
         strips=tuple(
             (phase, strip_cells([t for t in here if t.turn.phase == phase], gathered.folders[session.session], report))
             for phase in phases
@@ -112,9 +115,9 @@ def _before(earlier: Sequence[Trial], here: Sequence[Trial], main: str) -> tuple
     last = [t for t in earlier if t.turn.phase == main]
     if last:
         latest = last[-1].session
-        lines.append(
-            f"Last time ({day(latest.started)}): {_independent([t for t in last if t.session == latest])} independent"
-        )
+        other = f", {latest.condition}" if here and latest.condition != here[0].session.condition else ""
+        count = _independent([t for t in last if t.session == latest])
+        lines.append(f"Last time ({day(latest.started)}{other}): {count} independent")
     baseline = [t for t in [*earlier, *here] if t.turn.phase == "baseline"]
     if baseline and main != "baseline":
         lines.append(f"Baseline: {_independent(baseline)} independent")
@@ -125,9 +128,14 @@ def _gestures(trials: Sequence[Trial]) -> tuple[GestureCount, ...]:
     counts = []
     for target in dict.fromkeys(t.turn.target for t in trials):
         valid = [t for t in trials if t.turn.target == target and t.valid]
+        counted = [t for t in valid if t.outcome("independent") is not None]
         counts.append(
             GestureCount(
-                gesture_title(target), sum(t.independent for t in valid), sum(t.success for t in valid), len(valid)
+                gesture_title(target),
+                sum(t.independent for t in counted),
+                len(counted),
+                sum(t.success for t in valid),
+                len(valid),
             )
         )
     return tuple(counts)

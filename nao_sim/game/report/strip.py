@@ -45,7 +45,7 @@ def _cell(trial: Trial, folder: Path, report: Path) -> StripCell:
         says = "not answered" if turn.prompt_level in (None, 0) else f"not answered, {PROMPT_LEVELS[turn.prompt_level]}"
     if trial.valid and trial.session.scale != "0/1":
         says += f" ({accepted.score})"
-    wait = f"no movement in {seconds(turn.waited_s)}" if turn.latency_censored else ""
+    wait = f"none in {seconds(turn.waited_s)}" if turn.latency_censored else ""
     return StripCell(
         turn.turn,
         gesture_words(turn.target),

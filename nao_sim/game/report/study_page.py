@@ -9,7 +9,7 @@ from fractions import Fraction
 from markupsafe import Markup
 
 from nao_sim.game.report.dots import dots_figure
-from nao_sim.game.report.words import listed, percent, points, seconds
+from nao_sim.game.report.words import listed, percent, points, seconds, signed
 from nao_sim.game.statistics import ALPHA, MixedModel, wilson_interval
 from nao_sim.game.study import ChildResult, StudyResult, child_results
 from nao_sim.game.study.result import mean
@@ -166,7 +166,7 @@ def _model(model: MixedModel | str) -> str:
         return f"none, {model}"
     low, high = model.interval
     return (
-        f"log odds ratio {model.log_odds_ratio:.2f} (95 % {low:.2f} to {high:.2f}), t({model.freedom}), "
+        f"log odds ratio {signed(model.log_odds_ratio)} (95 % {signed(low)} to {signed(high)}), t({model.freedom}), "
         f"p = {model.p:.3f}; spread of the children {model.child_sd:.2f} logits"
     )
 

@@ -9,6 +9,9 @@ from fractions import Fraction
 from nao_sim.game.tables.instants import instant
 from nao_sim.gestures.vocabulary import vocabulary
 
+_MANY = 12
+"""More turns than these are not named one by one."""
+
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 _MONTHS = (
     "January", "February", "March", "April", "May", "June", "July", "August", "September", "October", "November",
@@ -59,6 +62,11 @@ def points(difference: Fraction | float) -> str:
     return f"{'+' if value > 0 else '−' if value < 0 else '±'}{abs(value)}"
 
 
+def signed(value: float) -> str:
+    """Return a number with two decimals and its sign."""
+    return f"{value:+.2f}".replace("-", "−")
+
+
 def seconds(value: float | None) -> str:
     """Return a time in seconds; a dash for none."""
     return "–" if value is None else f"{value:.1f} s"
@@ -71,6 +79,8 @@ def listed(words: Iterable[object]) -> str:
 
 
 def turns_named(numbers: Iterable[int]) -> str:
-    """Name turns: Turn 3; Turns 3, 5 and 7."""
+    """Name turns: Turn 3; Turns 3, 5 and 7; many are counted and the first of them named."""
     found = list(numbers)
+    if len(found) > _MANY:
+        return f"{len(found)} turns ({', '.join(map(str, found[:3]))}, …)"
     return f"{'Turn' if len(found) == 1 else 'Turns'} {listed(found)}"

@@ -55,7 +55,7 @@ def gather(places: Sequence[Path]) -> Gathered:
         events += tables.events
         notes += [
             f"{folder.name}/{name} was edited after it was written; this report goes by the Parquet file beside it"
-            for name in changed_by_hand(folder)
+            for name in changed_by_hand(folder, tables)
         ]
     sessions.sort(key=lambda s: (instant(s.started), s.session))
     rank = {s.session: i for i, s in enumerate(sessions)}

@@ -37,7 +37,7 @@ def from_parquet(path: Path, kind: TableKind) -> list[Row]:
     import pyarrow.parquet as pq
 
     try:
-        table = pq.read_table(path)
+        table = pq.ParquetFile(path).read()
     except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
         raise GameError(f"{path} cannot be read as Parquet ({error}); copy it anew") from None
     stamp = (table.schema.metadata or {}).get(b"nao_sim.schema", b"").decode(errors="replace")
