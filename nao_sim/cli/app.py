@@ -15,6 +15,7 @@ COMMANDS = {
     "check": "check",
     "dataset": "dataset",
     "export": "export",
+    "exchange": "exchange",
     "film": "film",
     "evaluate": "evaluate",
     "gestures": "gestures",

@@ -8,8 +8,8 @@ from typing import Any
 
 from nao_sim.exchange.boris.export import NO_TRIAL, export_boris, plain
 from nao_sim.exchange.boris.project import parse_boris
-from nao_sim.exchange.elan.merge import Merged
 from nao_sim.exchange.errors import ExchangeError
+from nao_sim.exchange.merged import Merged
 from nao_sim.game.tables import Event, Rating, Session, Tables
 from nao_sim.game.tables.scores import latest_ratings
 from nao_sim.game.tables.words import EVENT_KINDS, SPEECH

@@ -6,13 +6,14 @@ An annotation that no column can hold becomes an event of kind ``mark`` with its
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from xml.etree import ElementTree
 
 from nao_sim.exchange.elan.event import event_from
 from nao_sim.exchange.elan.layout import NO_TRIAL, event_tiers, plan_tiers
 from nao_sim.exchange.elan.reading import ReadAnnotation, ReadTier, read_tiers, with_times
 from nao_sim.exchange.errors import ExchangeError
+from nao_sim.exchange.merged import Merged
 from nao_sim.game.tables import Event, Rating, Tables
 from nao_sim.game.tables.scores import AUTO, latest_ratings
 from nao_sim.game.tables.words import EVENT_KINDS
@@ -21,21 +22,6 @@ _FACTS = ("turn_id", "prompt_level", "side", "seen", "excluded", "auto")
 _SPANS = ("turn", "model", "movement")
 _MOVED_MS = 2
 """ELAN keeps whole milliseconds; what moved no further did not move."""
-
-
-@dataclass(frozen=True)
-class Merged:
-    """Tables after a merge.
-
-    Attributes:
-        tables: the new tables.
-        news: what was added or corrected, a line each.
-        notes: what could not be taken over as it is, or is missing from the file and was kept, a line each.
-    """
-
-    tables: Tables
-    news: tuple[str, ...]
-    notes: tuple[str, ...]
 
 
 def merge_eaf(tables: Tables, root: ElementTree.Element, when: str) -> Merged:
