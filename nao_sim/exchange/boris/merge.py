@@ -50,9 +50,8 @@ def merge_boris(tables: Tables, project: dict[str, Any], when: str) -> Merged:
     states = {b["code"] for b in project.get("behaviors_conf", {}).values() if b.get("type", "").startswith("State")}
     ratings, events = list(tables.ratings), list(tables.events)
     news: list[str] = []
-    notes = [
-        f"observation {name!r} is no session here; left out" for name in project["observations"] if name not in names
-    ]
+    strangers = [name for name in project["observations"] if name not in names]
+    notes = [f"left out, no sessions here: {', '.join(strangers)}"] if strangers else []
     for name in common:
         theirs = _coded(name, project["observations"][name].get("events", []), states, notes)
         known = _coded(name, ours["observations"][name]["events"], {"turn", "model", "movement", "phase"}, [])

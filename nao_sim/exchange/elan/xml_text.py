@@ -15,8 +15,8 @@ _XSI = "http://www.w3.org/2001/XMLSchema-instance"
 
 
 def xml_text(text: str) -> str:
-    """Leave out what XML cannot hold, such as the bells of a speech recogniser."""
-    return _FORBIDDEN.sub("", text)
+    """Leave out what XML cannot hold, such as the bells of a speech recogniser; lines end as XML ends them."""
+    return _FORBIDDEN.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))
 
 
 def parse_eaf(where: str, content: bytes) -> ElementTree.Element:
