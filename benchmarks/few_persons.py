@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from nao_sim.resources import resource
-from recognizer.body_model import BodyModel
-from recognizer.database import IRRELEVANT, Database
+from recognizer.learning.body_model import BodyModel
+from recognizer.learning.database import IRRELEVANT, Database
 
 ASKED = 15
 

@@ -18,11 +18,11 @@ from typing import Any
 import cv2
 import numpy as np
 
-from nao_sim.people.film import exposed_angles, one_core
-from nao_sim.people.motions import IRRELEVANT, motions
-from nao_sim.people.sensor import Exposure
-from nao_sim.people.shots import COARSE, draw_cast, draw_shot
-from nao_sim.people.stage import Stage
+from nao_sim.people.filming.film import exposed_angles, one_core
+from nao_sim.people.filming.sensor import Exposure
+from nao_sim.people.filming.shots import COARSE, draw_cast, draw_shot
+from nao_sim.people.filming.stage import Stage
+from nao_sim.people.performance.motions import IRRELEVANT, motions
 
 WALL: dict[str, float] = defaultdict(float)
 PROCESSOR: dict[str, float] = defaultdict(float)

@@ -15,10 +15,10 @@ import cv2
 import joblib
 import numpy as np
 
-from nao_sim.people.heads import heads_of_film
+from nao_sim.people.datasets.head_ground_truth import heads_of_film
 from recognizer import open_clip
-from recognizer.body import BodyFinder
-from recognizer.samples import Sampler
+from recognizer.person.body_finder import BodyFinder
+from recognizer.video.samples import Sampler
 
 WITHIN = (0.1, 0.2, 0.35)
 

@@ -1,10 +1,10 @@
 """Hold filmed clips beside real ones: framing, duration, optical flow, moving and skin pixels.
 
-    python benchmarks/people_beside_real.py DATASET REAL_CLIP... [--clips 60]
+    python benchmarks/people_beside_real.py DATASET [REAL_CLIP ...] [--recordings FOLDER] [--clips 60]
 
 Prints one row for the data set (10th, 50th and 90th percentile over its clips) and one for each real clip. All
 measures are taken at a width of 160 pixels and 10 frames a second, and flow is given in image widths a second, so that
-cameras compare.
+cameras compare. Without REAL_CLIPs: those of the recordings (docs/recordings.md).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from recordings import add_option, recorded
 
 WIDTH, RATE = 160, 10.0
 MOVING = 0.02  # image widths a second: slower than this is sway, noise and compression
@@ -70,9 +71,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dataset", type=Path)
     parser.add_argument("real", type=Path, nargs="*")
+    add_option(parser)
     parser.add_argument("--clips", type=int, default=60, help="how many of each class at most")
     parser.add_argument("--labels", nargs="*", help="only these classes")
     options = parser.parse_args()
+    real = options.real or recorded(parser, options.recordings, "dynamic/*.*", "negative/*.m*")
     with (options.dataset / "manifest.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     print("| clips | " + " | ".join(NAMES) + " |\n|" + "---|" * (len(NAMES) + 1))
@@ -83,7 +86,7 @@ def main() -> None:
         low, middle, high = np.percentile([measure(path) for path in mine], [10, 50, 90], axis=0)
         cells = [f"{m:.3g} ({a:.2g}-{b:.2g})" for a, m, b in zip(low, middle, high, strict=True)]
         print(f"| {label} ({len(mine)}) | " + " | ".join(cells) + " |", flush=True)
-    for path in options.real:
+    for path in real:
         print(f"| {path.name} | " + " | ".join(f"{v:.3g}" for v in measure(path)) + " |", flush=True)
 
 

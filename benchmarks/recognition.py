@@ -18,9 +18,9 @@ import numpy as np
 
 from nao_sim.resources import resource
 from recognizer import Clip, Recognizer, open_clip
-from recognizer.body import BodyFinder
-from recognizer.flow import AVERAGE, derivatives, horn_schunck
-from recognizer.samples import Sampler
+from recognizer.motion.flow import AVERAGE, derivatives, horn_schunck
+from recognizer.person.body_finder import BodyFinder
+from recognizer.video.samples import Sampler
 
 SECONDS, FPS, SIZE = 3.0, 30.0, (320, 240)
 

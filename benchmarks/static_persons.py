@@ -1,8 +1,8 @@
 """Measure the posture recogniser on rendered photos of a person with face, arm and hand in view, by size of the hand.
 
-Usage: python -P benchmarks/static_persons.py [FOLDER] [--persons even|odd] [--every N]
+Usage: python benchmarks/static_persons.py [FOLDER] [--persons even|odd] [--every N]
 
-FOLDER is what docs/film_hands.py filmed with a seed of its own (`--persons 20 --seed 402`); other hands and photos in
+FOLDER is what tools/film_hands.py filmed with a seed of its own (`--persons 20 --seed 402`); other hands and photos in
 which nothing is shown are reported apart. Without it persons are filmed as `nao-sim film` films them: what was chosen
 by looking at such photos was chosen on persons with odd numbers, and even ones are reported.
 """
@@ -16,14 +16,14 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from nao_sim.people import photos
-from nao_sim.people.dataset import plan
-from nao_sim.people.known_hand import known_hand
-from nao_sim.people.stage import Stage
-from recognizer.static import PhotoRecognizer
-from recognizer.static.errors import PhotoError
-from recognizer.static.hand_finder_training import read_hands
-from recognizer.static.photo import read_photo
+from nao_sim.people.datasets.dataset import plan
+from nao_sim.people.filming import photos
+from nao_sim.people.filming.hand_ground_truth import known_hand
+from nao_sim.people.filming.stage import Stage
+from recognizer.postures import PhotoRecognizer
+from recognizer.postures.errors import PhotoError
+from recognizer.postures.person.training.hand_finder_training import read_hands
+from recognizer.postures.photo import read_photo
 
 PERSONS, TAKES, SEED = 40, 6, 3
 SIZES = ((18, 24), (24, 30), (30, 36), (36, 44), (44, 60), (60, 200))  # length of a hand, pixels

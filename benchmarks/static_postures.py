@@ -1,9 +1,9 @@
 """Measure the posture recogniser on real photos: person-disjoint, and learnt from hands that nobody filmed.
 
-Usage: python benchmarks/static_postures.py ../shared/clips/static [--database assets/databases/static.parquet]
+Usage: python benchmarks/static_postures.py [--recordings FOLDER] [--database assets/databases/static.parquet]
 
-The photos are not part of the project. Only persons with an odd number are reported in the second part: what was
-chosen by looking at photos was chosen on the even ones.
+The photos are not part of the project: see docs/recordings.md. Only persons with an odd number are reported in the
+second part: what was chosen by looking at photos was chosen on the even ones.
 """
 
 from __future__ import annotations
@@ -14,14 +14,15 @@ import csv
 from pathlib import Path
 
 import numpy as np
+from recordings import add_option, recorded
 
-from recognizer.database import IRRELEVANT, Database
-from recognizer.dataset import Entry
-from recognizer.static import PhotoRecognizer, learn_from_photos
-from recognizer.static.errors import PhotoError
-from recognizer.static.evaluation import Score, on_photos, on_unknown_persons
-from recognizer.static.person_postures import NO_HAND, of_object
-from recognizer.static.photo import read_photo
+from recognizer.evaluation.dataset import Entry
+from recognizer.learning.database import IRRELEVANT, Database
+from recognizer.postures import PhotoRecognizer, learn_from_photos
+from recognizer.postures.errors import PhotoError
+from recognizer.postures.evaluation import Score, on_photos, on_unknown_persons
+from recognizer.postures.person.posture_shares import NO_HAND, of_object
+from recognizer.postures.photo import read_photo
 
 DIGITS = {
     "0": "round",
@@ -80,10 +81,11 @@ def network(recognizer: PhotoRecognizer, entries: list[Entry]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("photos", type=Path)
+    add_option(parser)
     parser.add_argument("--database", type=Path, default=Path("assets/databases/static.parquet"))
     arguments = parser.parse_args()
-    entries = read_entries(arguments.photos)
+    [labels] = recorded(parser, arguments.recordings, "static/labels.csv")
+    entries = read_entries(labels.parent)
     known = [entry for entry in entries if entry.label != IRRELEVANT]
     for method in ("thesis_static", "static"):
         report(f"{method}, 7 classes, unknown persons", on_unknown_persons(learn_from_photos(known, method)))

@@ -16,9 +16,9 @@ import numpy as np
 
 from nao_sim.resources import resource
 from recognizer import Recognizer, open_clip
-from recognizer.database import IRRELEVANT
-from recognizer.dataset import Entry, read_manifest
-from recognizer.evaluation import Evaluation
+from recognizer.evaluation.cross_validation import Evaluation
+from recognizer.evaluation.dataset import Entry, read_manifest
+from recognizer.learning.database import IRRELEVANT
 
 PART = 50  # clips that one process answers with one loaded database
 

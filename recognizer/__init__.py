@@ -1,14 +1,14 @@
 """Gesture recognition on video: what did the person do?"""
 
-from recognizer.amplitude import Amplitude, centroid_transition
-from recognizer.clip import Clip, open_clip, parse_frame_range
-from recognizer.database import Database
-from recognizer.decision import Neighbour
 from recognizer.errors import ClipError, DatabaseError, RecognizerError
-from recognizer.flow import horn_schunck
-from recognizer.neighbours import NeighbourClassifier
+from recognizer.learning.database import Database
+from recognizer.learning.decision import Neighbour
+from recognizer.learning.neighbour_classifier import NeighbourClassifier
+from recognizer.motion.amplitude import Amplitude, centroid_transition
+from recognizer.motion.flow import horn_schunck
 from recognizer.recognition import Evidence, Recognition
 from recognizer.recognizer import Recognizer, RecognizerStream
+from recognizer.video.clip import Clip, open_clip, parse_frame_range
 
 __all__ = [
     "Amplitude",

@@ -7,10 +7,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from recognizer.difference import Ellipse
 from recognizer.errors import RecognizerError
-from recognizer.key_frames import intersection_curve
 from recognizer.recognition import Evidence, Recognition
+from recognizer.thesis.difference_images import Ellipse
+from recognizer.thesis.key_frames import intersection_curve
 
 GREEN, WHITE, RED, YELLOW = (0, 220, 0), (255, 255, 255), (60, 60, 255), (0, 220, 255)
 SHOWN = 8  # pictures in a strip
@@ -110,7 +110,7 @@ def _curve(evidence: Evidence) -> np.ndarray:
 
 def _body(evidence: Evidence) -> np.ndarray:
     """The head that was found and the window that motion is measured in."""
-    from recognizer.window import WHOLE
+    from recognizer.person.view import WHOLE
 
     body = evidence.body
     assert body is not None

@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from recognizer import body_features, thesis
-from recognizer.body_model import BodyModel
-from recognizer.database import Database
 from recognizer.errors import DatabaseError
-from recognizer.track import Track
+from recognizer.features import body_features
+from recognizer.learning.body_model import BodyModel
+from recognizer.learning.database import Database
+from recognizer.thesis import vectors
+from recognizer.thesis.classifier import ThesisModel
+from recognizer.tracking import Track
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,11 +46,15 @@ def _body(track: Track) -> np.ndarray:
     return body_features.vector(items)
 
 
+def _thesis(track: Track) -> np.ndarray:
+    return vectors.features([sample.grey for sample in track.samples], track.regions)
+
+
 METHODS = {
     method.name: method
     for method in (
         Method(body_features.METHOD, body_features.VERSION, body_features.names(), _body, BodyModel, True, 4),
-        Method(thesis.METHOD, thesis.VERSION, thesis.NAMES, thesis.features, thesis.ThesisModel, False, 16),
+        Method(vectors.METHOD, vectors.VERSION, vectors.NAMES, _thesis, ThesisModel, False, 16),
     )
 }
 

@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from recognizer.amplitude import Amplitude, MovingRegions
-from recognizer.decision import Decision, Neighbour
-from recognizer.difference import Ellipse, difference_image, ellipses
-from recognizer.finder import Body
-from recognizer.key_frames import equal_motion_frames
-from recognizer.samples import Sample
+from recognizer.learning.decision import Decision, Neighbour
+from recognizer.motion.amplitude import Amplitude
+from recognizer.motion.moving_regions import MovingRegions
+from recognizer.person.head_shoulders import Body
+from recognizer.thesis.difference_images import Ellipse, difference_image, ellipses
+from recognizer.thesis.key_frames import equal_motion_frames
+from recognizer.video.samples import Sample
 
 
 class Evidence:
@@ -35,7 +36,7 @@ class Evidence:
     @functools.cached_property
     def key_samples(self) -> list[Sample]:
         """The least correlated pair of key frames, then the six key frames of the five states."""
-        from recognizer.thesis import small_pair
+        from recognizer.thesis.vectors import small_pair
 
         greys = [sample.grey for sample in self.samples]
         chosen = [*small_pair(greys), *equal_motion_frames(greys)]

@@ -9,17 +9,17 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from recognizer.amplitude import amplitude
-from recognizer.clip import Clip, open_clip
-from recognizer.database import Database
-from recognizer.decision import Decision
 from recognizer.errors import ClipError, DatabaseError
+from recognizer.learning.database import Database
+from recognizer.learning.decision import Decision
 from recognizer.methods import method_of
+from recognizer.motion.amplitude import amplitude
 from recognizer.recognition import Evidence, Recognition
-from recognizer.samples import Sample
-from recognizer.scene import STILL
-from recognizer.segments import Segmenter
-from recognizer.track import MIN_SAMPLES, Track
+from recognizer.segmentation import Segmenter
+from recognizer.tracking import MIN_SAMPLES, Track
+from recognizer.video.clip import Clip, open_clip
+from recognizer.video.samples import Sample
+from recognizer.video.scene import STILL
 
 Progress = Callable[[int, int | None], None]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -18,12 +20,18 @@ def sample_clips() -> Path:
 
 
 @pytest.fixture(scope="session")
-def real_clips() -> Path:
-    """Recordings of real people, kept beside the checkout and not part of it."""
-    folder = CHECKOUT.parent / "shared" / "clips"
-    if not folder.is_dir():
-        pytest.skip("real recordings are not beside this checkout")
-    return folder
+def recorded() -> Callable[[str], Path]:
+    """Find a file or folder of the public recordings, or skip where it is not at hand."""
+
+    def find(name: str) -> Path:
+        folder = os.environ.get("NAO_SIM_RECORDINGS")
+        if not folder:
+            pytest.skip("needs public recordings in the folder NAO_SIM_RECORDINGS: see docs/recordings.md")
+        if not (Path(folder) / name).exists():
+            pytest.skip(f"NAO_SIM_RECORDINGS has no {name}: see docs/recordings.md")
+        return Path(folder) / name
+
+    return find
 
 
 @pytest.fixture(scope="session")

@@ -13,8 +13,8 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from nao_sim.people import checking, importing
-from nao_sim.people.manifest import read_manifest
+from nao_sim.people.datasets import checking, importing
+from nao_sim.people.datasets.manifest import read_manifest
 
 dataset = typer.Typer(no_args_is_help=True, help="Verify a data set, or make one of your own recordings.")
 EXIT_PROBLEMS = 1

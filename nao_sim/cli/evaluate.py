@@ -34,7 +34,7 @@ def evaluate(
     else:
         evaluations = _of_clips(dataset, protocol, methods or "body", jobs, as_json)
     if figures is not None:
-        from recognizer.figures import draw_figures
+        from recognizer.evaluation.figures import draw_figures
 
         for path in draw_figures(evaluations, figures):
             console.print(f"wrote {path}")
@@ -49,7 +49,7 @@ def _of_clips(dataset: Path, protocol: str, methods: str, jobs: int, as_json: bo
     from nao_sim.cli.progress import stages
     from nao_sim.cli.train import described
     from recognizer import Database
-    from recognizer.evaluation import evaluate as score
+    from recognizer.evaluation.cross_validation import evaluate as score
 
     evaluations = []
     for method in methods.split(","):

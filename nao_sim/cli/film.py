@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn, track
 
-from nao_sim.people import dataset
-from nao_sim.people.samples import film_samples, sample_labels
+from nao_sim.people.datasets import dataset
+from nao_sim.people.datasets.samples import film_samples, sample_labels
 
 
 def film(

@@ -11,7 +11,7 @@ import typer
 
 if TYPE_CHECKING:
     from recognizer import Recognition
-    from recognizer.evaluation import Evaluation
+    from recognizer.evaluation.cross_validation import Evaluation
 
 METHODS = "thesis_static,static"
 
@@ -23,9 +23,9 @@ def is_photo_set(dataset: Path) -> bool:
         DatabaseError: neither can be read.
     """
     from recognizer import Database
-    from recognizer.clip import STILL_SUFFIXES
-    from recognizer.dataset import read_manifest
-    from recognizer.static.methods import METHODS as known
+    from recognizer.evaluation.dataset import read_manifest
+    from recognizer.postures.learning.methods import METHODS as known
+    from recognizer.video.clip import STILL_SUFFIXES
 
     if dataset.is_file():
         return Database.load(dataset).method in known
@@ -37,8 +37,8 @@ def recognize_photo(
 ) -> Recognition:
     """Name the posture on a photo; with ``explain``, draw every stage into that folder."""
     from nao_sim.resources import resource
-    from recognizer.static import PhotoRecognizer
-    from recognizer.static.explain import explain_photo
+    from recognizer.postures import PhotoRecognizer
+    from recognizer.postures.explain import explain_photo
 
     recognizer = PhotoRecognizer.load(database or resource("assets", "databases", "static.parquet"))
     answer = recognizer.recognize(photo, among)
@@ -79,7 +79,7 @@ def evaluate_photos(dataset: Path, protocol: str, methods: str, hidden: bool) ->
     """
     from nao_sim.cli.progress import stages
     from recognizer import Database
-    from recognizer.static.evaluation import evaluate
+    from recognizer.postures.evaluation import evaluate
 
     out = []
     for method in methods.split(","):
@@ -96,8 +96,8 @@ def evaluate_photos(dataset: Path, protocol: str, methods: str, hidden: bool) ->
 
 def _described(dataset: Path, method: str, hidden: bool) -> Any:
     from nao_sim.cli.progress import stages
-    from recognizer.dataset import read_manifest
-    from recognizer.static import learn_from_photos
+    from recognizer.evaluation.dataset import read_manifest
+    from recognizer.postures import learn_from_photos
 
     with stages(hidden) as show:
         return learn_from_photos(read_manifest(dataset), method, functools.partial(show, f"describing, {method}"))

@@ -68,7 +68,7 @@ def described(dataset: Path, method: str, jobs: int) -> tuple[Any, list[str]]:
     """
     from nao_sim.cli.progress import stages
     from nao_sim.gestures.vocabulary import vocabulary
-    from recognizer.dataset import build_database, read_manifest
+    from recognizer.evaluation.dataset import build_database, read_manifest
 
     entries = read_manifest(dataset)
     families = {name: entry.family for name, entry in vocabulary().items() if entry.family in ("small", "large")}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from nao_sim.resources import resource
 from recognizer import Clip, Recognition, Recognizer
-from recognizer.static import PhotoRecognizer
+from recognizer.postures import PhotoRecognizer
 
 
 def database_of(clip: Clip) -> Path:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from nao_sim.gestures.errors import GestureError
-from nao_sim.gestures.gesture import Gesture, KeyFrame
+from nao_sim.gestures.gesture import Gesture
+from nao_sim.gestures.key_frames import KeyFrame
 from nao_sim.gestures.preparation import REST, prepare
 from nao_sim.motion import Change, MotionLog, Trajectory, check, perform
 from nao_sim.motion.perform import Progress

@@ -1,52 +1,14 @@
-"""What a gesture is: named key frames, and what they mean to people."""
+"""A gesture: its name, what it means to people, and the key frames or the walk that it is written in."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+from nao_sim.gestures.key_frames import Cycle, KeyFrame, Walk
+from nao_sim.gestures.preparation import prepare
 from nao_sim.motion.easing import Easing
 from nao_sim.motion.trajectory import Trajectory
-
-TORSO_KEYS = ("pitch", "roll", "height")
-
-
-@dataclass(frozen=True)
-class KeyFrame:
-    """Where some joints, and perhaps the torso, are at one moment; what is not named passes through.
-
-    Attributes:
-        time_s: seconds from the start of the gesture.
-        angles_rad: NAOqi joint name → angle in rad (hands: fraction open).
-        torso: ``pitch`` and ``roll`` of the torso in the world, rad, 0 upright; ``height`` above its height in
-            StandInit, m. The legs that this takes are found by whole-body inverse kinematics.
-        rest: every joint of the gesture is back in StandInit.
-        mark: a name for this moment.
-    """
-
-    time_s: float
-    angles_rad: Mapping[str, float] = field(default_factory=dict)
-    torso: Mapping[str, float] = field(default_factory=dict)
-    rest: bool = False
-    mark: str | None = None
-
-
-@dataclass(frozen=True)
-class Cycle:
-    """The part that is repeated: from the key frame marked ``first`` to the one marked ``last``, the same pose."""
-
-    first: str
-    last: str
-    repetitions: int
-
-
-@dataclass(frozen=True)
-class Walk:
-    """A displacement on foot, in the robot's own frame: x forward and y left, m; turn to the left, rad."""
-
-    x: float = 0.0
-    y: float = 0.0
-    turn: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -108,6 +70,4 @@ class Gesture:
         limits: str = "thesis",
     ) -> Trajectory:
         """Return what the robot must do; see :func:`nao_sim.gestures.preparation.prepare`."""
-        from nao_sim.gestures.preparation import prepare  # preparation is built on this class
-
         return prepare(self, start, speed, amplitude, repetitions, limits).trajectory

@@ -32,7 +32,8 @@ import numpy as np
 from nao_sim.errors import did_you_mean
 from nao_sim.gestures import checks
 from nao_sim.gestures.errors import GestureFileError
-from nao_sim.gestures.gesture import TORSO_KEYS, Cycle, Gesture, KeyFrame, Walk
+from nao_sim.gestures.gesture import Gesture
+from nao_sim.gestures.key_frames import TORSO_KEYS, Cycle, KeyFrame, Walk
 from nao_sim.gestures.vocabulary import CLASSES, FAMILIES, KINDS, vocabulary
 from nao_sim.motion.easing import EASINGS
 from nao_sim.motion.limits import HANDS

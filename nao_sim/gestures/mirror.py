@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nao_sim.gestures.gesture import Gesture, KeyFrame, Walk
+from nao_sim.gestures.gesture import Gesture
+from nao_sim.gestures.key_frames import KeyFrame, Walk
 from nao_sim.gestures.vocabulary import vocabulary
 from nao_sim.motion.trajectory import Trajectory
 from nao_sim.robot.joints import ACTUATED

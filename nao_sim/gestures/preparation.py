@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nao_sim.gestures.errors import GestureError
-from nao_sim.gestures.gesture import TORSO_KEYS, Gesture, KeyFrame
+from nao_sim.gestures.key_frames import TORSO_KEYS, KeyFrame, Written
 from nao_sim.motion.easing import ease
 from nao_sim.motion.limits import HANDS, Change, clipped, stretched
 from nao_sim.motion.trajectory import CONTROL_PERIOD, Trajectory
@@ -36,7 +36,7 @@ class Prepared:
 
 
 def prepare(
-    gesture: Gesture,
+    gesture: Written,
     start: str | Mapping[str, float] = REST,
     speed: float = 1.0,
     amplitude: float = 1.0,
@@ -58,7 +58,7 @@ def prepare(
 
 
 def written(
-    gesture: Gesture,
+    gesture: Written,
     start: str | Mapping[str, float] = REST,
     speed: float = 1.0,
     amplitude: float = 1.0,
@@ -114,7 +114,7 @@ def _start_angles(start: str | Mapping[str, float]) -> NDArray[np.float64]:
     return np.array([start.get(name, posture(REST)[name]) for name in ACTUATED])
 
 
-def _homed(gesture: Gesture) -> list[KeyFrame]:
+def _homed(gesture: Written) -> list[KeyFrame]:
     """Return the key frames with every ``rest`` written out."""
     home = posture(REST)
     pitch, _ = standing_torso()
@@ -128,7 +128,7 @@ def _marked(frames: list[KeyFrame], mark: str) -> int:
     return next(index for index, frame in enumerate(frames) if frame.mark == mark)
 
 
-def _scaled(frames: list[KeyFrame], gesture: Gesture, amplitude: float) -> list[KeyFrame]:
+def _scaled(frames: list[KeyFrame], gesture: Written, amplitude: float) -> list[KeyFrame]:
     """Return the key frames larger or smaller."""
     if amplitude == 1.0:
         return frames
@@ -155,7 +155,7 @@ def _scaled(frames: list[KeyFrame], gesture: Gesture, amplitude: float) -> list[
     return [grow(frame) if first <= index <= last else frame for index, frame in enumerate(frames)]
 
 
-def _repeated(frames: list[KeyFrame], gesture: Gesture, repetitions: int | None) -> list[KeyFrame]:
+def _repeated(frames: list[KeyFrame], gesture: Written, repetitions: int | None) -> list[KeyFrame]:
     """Return the key frames with the cycle played as often as asked; marks stay with the first round."""
     if gesture.cycle is None:
         if repetitions not in (None, 1):
@@ -176,7 +176,7 @@ def _repeated(frames: list[KeyFrame], gesture: Gesture, repetitions: int | None)
 
 
 def _joint_curves(
-    gesture: Gesture, frames: list[KeyFrame], start: NDArray[np.float64], follow_s: float
+    gesture: Written, frames: list[KeyFrame], start: NDArray[np.float64], follow_s: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return times (n,) and targets (n, 25) of all joints, legs as in StandInit unless the gesture names them."""
     delays = {name: follow_s * _DEPTH.get(name[1:], 0) for name in gesture.joints}
@@ -203,7 +203,7 @@ def _put(keys: list[tuple[float, float]], time: float, value: float) -> None:
         keys.append((time, value))
 
 
-def _torso_path(gesture: Gesture, frames: list[KeyFrame], times: NDArray[np.float64]) -> TorsoPath:
+def _torso_path(gesture: Written, frames: list[KeyFrame], times: NDArray[np.float64]) -> TorsoPath:
     """Return where the torso is at each time."""
     pitch, _ = standing_torso()
     curves = {}

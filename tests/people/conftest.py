@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from nao_sim.people.stage import Stage
+from nao_sim.people.filming.stage import Stage
 
 
 @pytest.fixture(scope="package")

@@ -12,7 +12,7 @@ from nao_sim.gestures.vocabulary import vocabulary
 from nao_sim.resources import resource
 from recognizer import Clip, ClipError, Recognizer, open_clip
 from recognizer.explain import explain
-from recognizer.track import track_clip
+from recognizer.tracking import track_clip
 
 SAMPLES = [name for name, entry in vocabulary().items() if entry.family in ("small", "large")]
 ROBUST = ("bye_right", "bye_two_hands", "kowtow", "right_arm_up", "left_arm_pointing_left", "walk_left_to_right")

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from nao_sim.gestures import checks
 from nao_sim.gestures.errors import GestureFileError
-from nao_sim.gestures.gesture import Gesture, KeyFrame
+from nao_sim.gestures.gesture import Gesture
+from nao_sim.gestures.key_frames import KeyFrame
 
 _MAX_BYTES = 64_000_000
 

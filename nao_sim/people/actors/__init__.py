@@ -1,0 +1,1 @@
+"""Who is on the video: bodies, looks and clothes, drawn from a seed and laid over one skeleton."""

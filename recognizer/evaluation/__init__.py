@@ -1,0 +1,1 @@
+"""How well: data sets in, databases and scores on unseen persons out."""

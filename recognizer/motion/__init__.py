@@ -1,0 +1,1 @@
+"""What moves in pictures: optical flow, moving regions, and how far they go."""

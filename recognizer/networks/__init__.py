@@ -1,0 +1,1 @@
+"""Small neural networks in plain NumPy: their layers, and the one that sees motions."""

@@ -1,0 +1,1 @@
+"""How the weights that find the head are learned; nothing that answers needs it."""

@@ -1,0 +1,1 @@
+"""The hand alone: divided from a plain background, in its own frame, described."""

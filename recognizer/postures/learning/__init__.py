@@ -1,0 +1,1 @@
+"""What is learnt from described hands, and from which photos or model hands."""
