@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from sklearn.metrics import cohen_kappa_score
 
@@ -24,6 +24,7 @@ def test_published_alphas(observers, alpha):
 
 @pytest.mark.parametrize("weights", ["none", "linear", "quadratic"])
 @given(st.lists(st.tuples(st.integers(0, 2), st.integers(0, 2)), min_size=2, max_size=30))
+@settings(max_examples=30, deadline=None)
 def test_kappa_is_that_of_scikit_learn_where_that_is_a_number(weights, pairs):
     a, b = zip(*pairs, strict=True)
     table = np.zeros((3, 3), int)

@@ -226,6 +226,7 @@ points = st.lists(st.builds(Fraction, st.integers(0, 6), st.just(6)), min_size=1
 
 
 @given(points, points)
+@settings(max_examples=40, deadline=None)
 def test_nap_is_mann_whitney(baseline, game):
     u = mannwhitneyu([float(g) for g in game], [float(b) for b in baseline]).statistic
     assert float(nap(baseline, game)) == pytest.approx(u / (len(baseline) * len(game)))

@@ -76,11 +76,11 @@ def test_csv_keeps_ids_and_never_runs_as_a_formula(tmp_path):
 
 def test_edited_csv_is_noticed(tmp_path):
     write_tables(tmp_path, EXAMPLE)
-    assert changed_by_hand(tmp_path) == []
+    assert changed_by_hand(tmp_path, EXAMPLE) == []
     path = tmp_path / "turns.csv"
     path.write_text(path.read_text().replace('"stop"', '"yes"'))
     path.write_text(path.read_text().replace('"bye_right","S1/001"', "x").replace("8.0", "9.0"))
-    assert changed_by_hand(tmp_path) == ["turns.csv"]
+    assert changed_by_hand(tmp_path, EXAMPLE) == ["turns.csv"]
 
 
 text_cells = st.text(st.characters(exclude_categories=["Cs"]))

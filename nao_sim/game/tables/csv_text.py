@@ -31,7 +31,7 @@ def unguard_text(text: str) -> str:
     return rest if text.startswith("'") and (rest.startswith(_FORMULA) or rest == MISSING) else text
 
 
-def to_csv(kind: TableKind, rows: Sequence[Row], derived: Sequence[dict[str, Any]] = ()) -> str:
+def to_csv(kind: TableKind, rows: Sequence[object], derived: Sequence[dict[str, Any]] = ()) -> str:
     """Return rows as text, beside each its derived cells if the kind has any."""
     out = io.StringIO()
     columns = kind.columns + kind.derived

@@ -109,9 +109,8 @@ def _derived(tables: Tables) -> list[dict[str, Any]]:
     return found
 
 
-def changed_by_hand(folder: Path) -> list[str]:
-    """Return the CSV files of a folder whose text is not that of their Parquet, which is what counts."""
-    tables = read_tables(folder)
+def changed_by_hand(folder: Path, tables: Tables) -> list[str]:
+    """Return the CSV files of a folder whose text is not that of the tables read from its Parquet files."""
     changed = []
     for name in TABLES:
         text = folder / f"{name}.csv"

@@ -11,7 +11,7 @@ from nao_sim.game.errors import GameError
 from nao_sim.game.tables.schema import Row, TableKind, arrow_schema
 
 
-def to_parquet(kind: TableKind, rows: Sequence[Row], derived: Sequence[dict[str, Any]] = ()) -> bytes:
+def to_parquet(kind: TableKind, rows: Sequence[object], derived: Sequence[dict[str, Any]] = ()) -> bytes:
     """Return rows, and beside each its derived cells if the kind has any, as the bytes of a file."""
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -37,7 +37,7 @@ def from_parquet(path: Path, kind: TableKind) -> list[Row]:
     import pyarrow.parquet as pq
 
     try:
-        table = pq.read_table(path)
+        table = pq.ParquetFile(path).read()
     except (pa.ArrowInvalid, pa.ArrowTypeError) as error:
         raise GameError(f"{path} cannot be read as Parquet ({error}); copy it anew") from None
     stamp = (table.schema.metadata or {}).get(b"nao_sim.schema", b"").decode(errors="replace")

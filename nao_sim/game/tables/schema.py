@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 Row = Session | Turn | Rating | Event
+"""What the four tables of a session hold."""
 
 VERSION = 1
 """Grows when a column changes its meaning or leaves; a new optional column does not change it."""
