@@ -63,16 +63,19 @@ def play_turn(table: Table, turn: PlannedTurn, record: TurnRecord) -> None:
         table.voice.speak(record.log, "instruction", "own_turn", table.speaker)
     seen = _model(table, turn, model, record)
     if isinstance(imitator.turns, Robot):
-        _robot_answers(table, turn, seen, record)
+        # What is written down of the model takes a tenth of a second that the robot's answer does not wait for.
+        _robot_answers(table, turn, None if seen is None else seen.watched, record)
+        _write_model(table, seen, record)
         if model.role == "child" and turn.phase == "game" and not record.excluded:
             _praise(table, record)
     elif not record.excluded:
+        _write_model(table, seen, record)
         _person_answers(table, turn, imitator, record)
     record.states.append(("3_doing", table.clock.now, "end"))
 
 
-def _model(table: Table, turn: PlannedTurn, model: Participant, record: TurnRecord) -> Watched | None:
-    """Let the model show its gesture; returns what was seen of a person."""
+def _model(table: Table, turn: PlannedTurn, model: Participant, record: TurnRecord) -> Shown | None:
+    """Let the model show its gesture; returns the film of a person."""
     if isinstance(model.model_source, Robot):
         _robot_models(table, turn, record)
         return None
@@ -84,15 +87,20 @@ def _model(table: Table, turn: PlannedTurn, model: Participant, record: TurnReco
         record.exclude(attempt.excluded if attempt and attempt.excluded else "model_failed", "the model is on no film")
         return None
     shown = _watch(table, model.id, attempt, answering=False, number=0, record=record)
+    if shown.watched.blind:
+        record.exclude("camera_blind", shown.watched.problem or "the model's film shows nothing")
+    return shown
+
+
+def _write_model(table: Table, shown: Shown | None, record: TurnRecord) -> None:
+    """Write down when a person modelled: a film is the model from its first to its last frame, a camera waits longer."""
+    if shown is None:
+        return
     seen = shown.watched
-    moved = seen.movement()
-    live = table.session.live
-    start, end = moved if moved is not None and live else (0.0, seen.seconds)
+    moved = seen.movement() if table.session.live else None
+    start, end = moved or (0.0, seen.seconds)
     record.row |= {"model_start_s": shown.start_s + start, "model_end_s": shown.start_s + end}
-    record.log.add("model", shown.start_s + start, shown.start_s + end, who=model.id, label=_label(seen))
-    if seen.blind:
-        record.exclude("camera_blind", seen.problem or "the model's film shows nothing")
-    return seen
+    record.log.add("model", shown.start_s + start, shown.start_s + end, who=shown.who, label=_label(seen))
 
 
 def _robot_models(table: Table, turn: PlannedTurn, record: TurnRecord) -> None:
