@@ -6,6 +6,7 @@ import contextlib
 import queue
 import threading
 import time
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 from types import TracebackType
@@ -27,6 +28,7 @@ REST_S = 0.7
 LONGEST_S = 12.0
 ASSUMED_FPS = 25.0
 _SILENT_S = 3.0
+_MEASURED_S = 1.0
 _SMALL = (80, 60)
 # Mean grey levels that the fastest hundredth of the picture changes by in a step, above the camera's own noise.
 _MOVES = 14.0
@@ -51,7 +53,7 @@ class CameraPlayer:
         self._who, self._camera, self._timeout_s = who, camera, timeout_s
         self._pictures: queue.Queue[_Picture] = queue.Queue(maxsize=8)
         self._stopped = threading.Event()
-        self._fps = ASSUMED_FPS
+        self._stamps: deque[float] = deque(maxlen=50)
 
     def __enter__(self) -> CameraPlayer:
         """Open the camera.
@@ -67,11 +69,16 @@ class CameraPlayer:
                 f"participant {self._who}: camera {self._camera.device!r} gives no picture; plug it in, close other "
                 "programs that use it, or check its number or address"
             )
-        told = self._capture.get(cv2.CAP_PROP_FPS)
-        self._fps = float(told) if 1.0 <= told <= 120.0 else ASSUMED_FPS
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
+        self._stopped.wait(_MEASURED_S)
         return self
+
+    @property
+    def _fps(self) -> float:
+        """Pictures a second as they come; what cameras say of it is often wrong, and latencies depend on it."""
+        stamps = list(self._stamps)
+        return (len(stamps) - 1) / (stamps[-1] - stamps[0]) if len(stamps) > 2 else ASSUMED_FPS
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -89,7 +96,9 @@ class CameraPlayer:
             if self._pictures.full():
                 with contextlib.suppress(queue.Empty):
                     self._pictures.get_nowait()
-            self._pictures.put(_Picture(time.monotonic(), frame))
+            picture = _Picture(time.monotonic(), frame)
+            self._stamps.append(picture.at)
+            self._pictures.put(picture)
 
     def begin(self) -> None:
         """Nothing to do: the camera sees what happens now."""

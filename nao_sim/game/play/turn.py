@@ -93,7 +93,7 @@ def _model(table: Table, turn: PlannedTurn, model: Participant, record: TurnReco
 
 
 def _write_model(table: Table, shown: Shown | None, record: TurnRecord) -> None:
-    """Write down when a person modelled: a film is the model from its first to its last frame, a camera waits longer."""
+    """Write down when a person modelled: all through a film; before a camera, which waits longer, while they move."""
     if shown is None:
         return
     seen = shown.watched
