@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _SHOWN_JOINTS = 6
 
 
-def _decision_text(recognition: Recognition, reason: str) -> str:
+def decision_text(recognition: Recognition, reason: str) -> str:
     """The decision as Markdown: the answer, why, and the nearest neighbours."""
     if recognition.rejected:
         nearest = f" (nearest: {recognition.nearest})" if recognition.nearest else ""
@@ -105,7 +105,7 @@ def record_episode(path: Path, episode: Episode, nao: Nao, progress: Callable[[i
     with recording(path, name, identity, layout(ACTUATED, moving)) as stream:
         log_shells(stream, nao.model)
         log_phases(stream, _phases(episode))
-        text = _decision_text(episode.recognition, episode.answer.reason)
+        text = decision_text(episode.recognition, episode.answer.reason)
         log_decision(stream, "# Watching …", episode.watched_s, text)
         log_frames(stream, episode.clip, episode.clip.fps, progress)
         _log_evidence(stream, episode)

@@ -76,7 +76,7 @@ def _walk(
     """Walk, after coming home if the last gesture left the robot elsewhere; the log has both."""
     if speed != 1.0 or repetitions not in (None, 1) or gesture.walk is None:
         raise GestureError(f"'{gesture.name}' is a walk and keeps its own pace; leave speed and repetitions out")
-    before = _come_home(nao)
+    before = come_home(nao)
     goal = gesture.walk
     log = walk(nao, amplitude * goal.x, amplitude * goal.y, amplitude * goal.turn, progress=progress)
     if before is not None:
@@ -84,7 +84,7 @@ def _walk(
     return Performance(Trajectory(log.time, log.targets), [], log)
 
 
-def _come_home(nao: Nao) -> MotionLog | None:
+def come_home(nao: Nao) -> MotionLog | None:
     """Bring every joint to StandInit; None if they are there."""
     home = posture(REST)
     angles = {name: home[name] for name in ACTUATED if not any(part in name for part in ("Hip", "Knee", "Ankle"))}

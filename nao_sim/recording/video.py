@@ -50,15 +50,11 @@ def log_frames(
     Returns:
         The number of frames logged.
     """
-    import rerun as rr
-
     blobs: list[bytes] = []
     first = 0
 
     def send() -> None:
-        times = np.arange(first, first + len(blobs)) / fps
-        columns = rr.EncodedImage.columns(blob=blobs, media_type=["image/jpeg"] * len(blobs))
-        stream.send_columns(f"{VIDEO}/frame", indexes=[rr.TimeColumn(TIMELINE, duration=times)], columns=columns)
+        log_pictures(stream, np.arange(first, first + len(blobs)) / fps, blobs)
 
     scale = 1.0
     for frame in frames:
@@ -76,6 +72,23 @@ def log_frames(
     if progress is not None:
         progress(first + len(blobs))
     return first + len(blobs)
+
+
+def log_pictures(stream: rr.RecordingStream, times: np.ndarray, jpegs: Sequence[bytes]) -> None:
+    """Log frames that are JPEG already; times are seconds on the timeline, shape (n,)."""
+    import rerun as rr
+
+    columns = rr.EncodedImage.columns(blob=list(jpegs), media_type=["image/jpeg"] * len(jpegs))
+    stream.send_columns(f"{VIDEO}/frame", indexes=[rr.TimeColumn(TIMELINE, duration=times)], columns=columns)
+
+
+def log_no_picture(stream: rr.RecordingStream, t: float) -> None:
+    """Take the last picture and what is drawn over it away at a moment [s]."""
+    import rerun as rr
+
+    stream.set_time(TIMELINE, duration=t)
+    stream.log(VIDEO, rr.Clear(recursive=True))
+    stream.reset_time()
 
 
 def log_boxes(stream: rr.RecordingStream, time: np.ndarray, boxes: Sequence[np.ndarray]) -> None:
