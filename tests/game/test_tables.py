@@ -174,6 +174,6 @@ def test_excluded_turn_never_has_a_score():
 
 
 def test_list_of_columns_in_the_docs_is_current():
-    script = Path(__file__).parents[2] / "docs" / "turn_tables.py"
+    script = Path(__file__).parents[2] / "tools" / "turn_tables.py"
     done = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

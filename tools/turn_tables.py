@@ -9,7 +9,7 @@ from pathlib import Path
 from nao_sim.game.tables.column import Column
 from nao_sim.game.tables.schema import TABLES, kind_of
 
-PAGE = Path(__file__).with_name("turns.md")
+PAGE = Path(__file__).parents[1] / "docs" / "turns.md"
 
 
 def _line(c: Column) -> str:
@@ -37,5 +37,5 @@ if __name__ == "__main__":
     old = PAGE.read_text(encoding="utf-8")
     new = page(old)
     if "--check" in sys.argv:
-        raise SystemExit(0 if new == old else f"{PAGE} is not current; run python docs/turn_tables.py")
+        raise SystemExit(0 if new == old else f"{PAGE} is not current; run python tools/turn_tables.py")
     PAGE.write_text(new, encoding="utf-8")
