@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from recognizer.errors import DatabaseError
+from recognizer.errors import ClipError, DatabaseError
 from recognizer.features import body_features
 from recognizer.learning.body_model import BodyModel
 from recognizer.learning.database import Database
@@ -24,7 +24,7 @@ class Method:
     Attributes:
         name, version: what a database must agree with.
         names: (d,) names of the features.
-        features: from a track to a vector (d,).
+        features: from a track to a vector (d,); a ClipError where it needs somebody and sees nobody.
         model: estimator that reads them.
         needs_body: whether the track must find the person.
         bits: in which a database stores each feature; many weak features need few.
@@ -40,6 +40,8 @@ class Method:
 
 
 def _body(track: Track) -> np.ndarray:
+    if track.body is None:
+        raise ClipError(f"{track.source}: {NOBODY}; film somebody from the hips up, head and arms in view")
     grey = track.samples[0].grey
     size = (grey.shape[1], grey.shape[0])
     items = body_features.describe(track.steps, track.head_motion, track.motion, list(track.regions), track.body, size)
@@ -49,6 +51,8 @@ def _body(track: Track) -> np.ndarray:
 def _thesis(track: Track) -> np.ndarray:
     return vectors.features([sample.grey for sample in track.samples], track.regions)
 
+
+NOBODY = "nobody is seen in this clip"
 
 METHODS = {
     method.name: method

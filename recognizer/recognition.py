@@ -76,12 +76,20 @@ class Evidence:
 
 
 @dataclasses.dataclass(frozen=True)
+class Watched:
+    """How much of a clip was looked at to find what the answer is about: frames, and the seconds they last."""
+
+    frames: int
+    seconds: float
+
+
+@dataclasses.dataclass(frozen=True)
 class Recognition:
     """What the person did, or why it is none of the known gestures.
 
     Attributes:
         label: the gesture, None when rejected.
-        nearest: the best guess, even when rejected.
+        nearest: the best guess, even when rejected; empty where nothing could be compared, as without anybody in view.
         family: "small", "large" or "static", of ``nearest``.
         rejected: no gesture of the vocabulary.
         reason: why rejected, with the distance; empty otherwise.
@@ -93,6 +101,7 @@ class Recognition:
         neighbours: nearest rows of the database, nearest first.
         amplitude: small or large by the path of motion; None for a photo.
         start, end: seconds of the clip that the answer is about.
+        watched: how much of the clip was looked at.
         method: name of the feature method.
         source: where the frames came from.
         warnings: what was odd (moving camera, cut, no motion, frame rate of the header …).
@@ -112,6 +121,7 @@ class Recognition:
     amplitude: Amplitude | None
     start: float
     end: float
+    watched: Watched
     method: str
     source: str
     warnings: tuple[str, ...] = ()
@@ -124,6 +134,10 @@ class Recognition:
         fields = {f.name: getattr(decision, f.name) for f in dataclasses.fields(decision)}
         return cls(**fields, **rest)
 
+    def rejected_for(self, reason: str) -> Recognition:
+        """The same, but rejected."""
+        return dataclasses.replace(self, label=None, rejected=True, reason=reason)
+
     def to_dict(self) -> dict[str, Any]:
         """Everything but the pictures, as plain JSON-able values."""
         out = {
@@ -131,6 +145,7 @@ class Recognition:
         }
         out["neighbours"] = [dataclasses.asdict(n) for n in self.neighbours]
         out["warnings"] = list(self.warnings)
+        out["watched"] = dataclasses.asdict(self.watched)
         if self.amplitude is not None:
             out["amplitude"] = {**dataclasses.asdict(self.amplitude), "path": self.amplitude.path.round(4).tolist()}
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in out.items()}

@@ -17,7 +17,7 @@ from recognizer.person.head_motion import HeadMotion
 from recognizer.person.head_shoulders import Body
 from recognizer.person.steps import Windows
 from recognizer.video.clip import Clip
-from recognizer.video.samples import LOOKS, Sample, Sampler
+from recognizer.video.samples import LOOKS, RATE, Sample, Sampler
 from recognizer.video.scene import Scene
 
 MIN_SAMPLES = 6  # six key frames make the five states of a large gesture
@@ -30,7 +30,7 @@ class Track:
     """Samples, flow, moving regions and the person's window of a clip, frame by frame.
 
     Args:
-        fps: frames per second.
+        fps: frames per second; None when every frame comes with its time.
         first_index: number of the first frame in its source.
         source: name for messages.
         find_body: follow the person's window as well; the thesis's method does without.
@@ -44,7 +44,7 @@ class Track:
 
     def __init__(
         self,
-        fps: float,
+        fps: float | None,
         first_index: int = 0,
         source: str = "stream",
         find_body: bool = True,
@@ -53,7 +53,7 @@ class Track:
         self.source = source
         self.sampler = Sampler(fps, first_index)
         kept = self.sampler.kept
-        self.regions: deque[MovingRegions] = deque(maxlen=kept)
+        self.regions: deque[MovingRegions] = deque(maxlen=kept - 1)  # one between two samples
         self.steps = Steps(kept)
         self._waiting: deque[Sample] = deque(maxlen=kept)
         self._finder = BodyFinder() if find_body else None
@@ -63,6 +63,7 @@ class Track:
         self._head_rows: deque[np.ndarray] = deque(maxlen=kept * LOOKS)
         self._watch = MotionWatch(kept, mirrored) if find_body else None
         self.scene = Scene()
+        self._first_time = 0.0
         self._flow: tuple[np.ndarray, np.ndarray] | None = None
         self._before: Sample | None = None
 
@@ -72,10 +73,17 @@ class Track:
         return list(self.sampler.samples)
 
     @property
-    def body(self) -> Body:
-        """Place and size of the person [px of the samples' pictures]; decided now if it was not yet."""
-        assert self._finder is not None
-        return self._finder.decide()
+    def body(self) -> Body | None:
+        """Place and size of the person [px of the samples' pictures], None where no place looks like one.
+
+        Decided now if it was not yet.
+        """
+        return None if self._finder is None else self._finder.decide()
+
+    @property
+    def whole(self) -> bool:
+        """Whether every sample of the clip is still kept."""
+        return bool(self.sampler.samples) and self.sampler.samples[0].time == self._first_time
 
     @property
     def head_motion(self) -> np.ndarray:
@@ -88,24 +96,30 @@ class Track:
         assert self._watch is not None
         return self._watch.features
 
-    def push(self, frame: np.ndarray) -> None:
+    def push(self, frame: np.ndarray, time: float | None = None) -> None:
         """Take one frame, (h, w, 3) uint8 BGR, all of one size.
+
+        Args:
+            frame: the picture.
+            time: seconds from the first frame; None at a steady rate.
 
         Raises:
             ClipError: the frame has another size than those before.
         """
-        sample = self.sampler.push(frame)
-        if sample is not None:
-            self._take(sample)
+        for sample in self.sampler.feed(frame, time):
+            self.take(sample)
 
     def push_sample(self, sample: Sample) -> None:
         """Take a sample that another track has made of a frame."""
         self.sampler.samples.append(sample)
         self.sampler.pushed = sample.index + 1 - self.sampler.first_index
-        self._take(sample)
+        self.take(sample)
 
-    def _take(self, sample: Sample) -> None:
+    def take(self, sample: Sample) -> None:
+        """Measure the next sample of :attr:`sampler`; what :meth:`push` does with each."""
         before, self._before = self._before, sample
+        if before is None:
+            self._first_time = sample.time
         self.scene.observe(sample)
         if before is not None:
             if before.grey.shape != sample.grey.shape:
@@ -125,7 +139,9 @@ class Track:
         """Measure a few of the samples that have waited for the person to be found."""
         assert self._watch is not None
         if self._windows is None or self._follower is None:
-            self._windows, self._follower = Windows(self.body), HeadFollower(self.body)
+            body = self.body
+            assert body is not None
+            self._windows, self._follower = Windows(body), HeadFollower(body)
         taken = []
         for _ in range(min(CATCH_UP, len(self._waiting))):
             sample = self._waiting.popleft()
@@ -145,11 +161,11 @@ class Track:
         """
         n = len(self.sampler.samples)
         if n < MIN_SAMPLES:
-            need = MIN_SAMPLES / min(self.sampler.fps, 10.0)
+            need = MIN_SAMPLES / min(self.sampler.fps or RATE, RATE)
             raise ClipError(
                 f"{self.source} has {self.sampler.pushed} frames, too short for a gesture; film {need:.1f} s or more"
             )
-        if self._finder is not None:
+        if self.body is not None:
             while self._waiting:
                 self._work_off()
 
@@ -161,7 +177,7 @@ def track_clip(clip: Clip, find_body: bool = True, mirrored: bool = False) -> Tr
         ClipError: the clip cannot be read or is too short.
     """
     track = Track(clip.fps, clip.frames[0], clip.source, find_body, mirrored)
-    for frame in clip:
-        track.push(frame)
+    for time, frame in clip.timed():
+        track.push(frame, time)
     track.end()
     return track

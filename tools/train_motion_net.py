@@ -192,7 +192,7 @@ def main() -> None:
     parser.add_argument("--epochs", type=int, default=10)
     parser.add_argument("--rate", type=float, default=2e-3)
     parser.add_argument("--from", dest="begin", type=Path, help=f"a {FILE} to go on from, the shipped one or another")
-    parser.add_argument("--out", type=Path, default=Path("recognizer"), help=f"folder of {FILE}")
+    parser.add_argument("--out", type=Path, default=Path("recognizer/networks"), help=f"folder of {FILE}")
     asked = parser.parse_args()
     asked.out.mkdir(parents=True, exist_ok=True)
     entries = read_manifest(asked.set)

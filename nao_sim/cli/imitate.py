@@ -54,7 +54,8 @@ def _print(episode: Episode, folder: Path) -> None:
     seen, outcome = episode.recognition, episode.outcome
     table = Table(show_header=False, box=None, pad_edge=False)
     what = f"[bold]{seen.label}[/]" if seen.label else f"[bold]none of these[/] ({seen.reason})"
-    table.add_row("seen", f"{what}  {seen.family}, distance {seen.distance:.2f} of at most {seen.threshold:.2f}")
+    how_sure = f"  {seen.family}, distance {seen.distance:.2f} of at most {seen.threshold:.2f}" if seen.nearest else ""
+    table.add_row("seen", what + how_sure)
     if episode.answer.gesture:
         upright = f"[red]fell after {outcome.fell_at_s:.1f} s[/]" if outcome.fell_at_s is not None else "stayed upright"
         table.add_row("answered", f"[bold]{episode.answer.gesture}[/], {outcome.duration_s:.1f} s")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import json
 from pathlib import Path
@@ -33,15 +34,17 @@ def recognize(
     recognizer = Recognizer.load(database or resource("assets", "databases", "dynamic.parquet"))
     with stages(hidden=as_json) as show:
         update = functools.partial(show, "reading frames")
-        if every:
-            answers = recognizer.recognize_all(clip, labels, update)
-        else:
-            answers = [recognizer.recognize(clip, labels, update)]
-    if explain is not None:
-        from recognizer.explain import explain as draw
+        found = (
+            recognizer.recognize_each(clip, labels, update) if every else [recognizer.recognize(clip, labels, update)]
+        )
+        answers = []
+        for number, answer in enumerate(found, 1):
+            if explain is not None:
+                from recognizer.explain import explain as draw
 
-        for number, answer in enumerate(answers, 1):
-            draw(answer, explain / f"{number:02d}" if every else explain)
+                draw(answer, explain / f"{number:02d}" if every else explain)
+            # Its pictures are not needed any more; those of a long session would not fit in memory.
+            answers.append(dataclasses.replace(answer, evidence=None))
     _show(answers, as_json, every)
 
 
@@ -66,7 +69,7 @@ def _print(answers: list[Any]) -> None:
         shown = [n.action if n.label == "irrelevant" else n.label for n in a.neighbours[:3]]
         table.add_row(
             f"{a.start:.1f}", f"{a.end:.1f}", a.label or "[red]rejected", a.family,
-            f"{a.distance:.2f}", f"{a.threshold:.2f}", ", ".join(shown),
+            *((f"{a.distance:.2f}", f"{a.threshold:.2f}") if a.nearest else ("–", "–")), ", ".join(shown),
         )  # fmt: skip
     console.print(table)
     for a in answers:

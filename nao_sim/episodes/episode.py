@@ -36,7 +36,6 @@ class Episode:
 
     Attributes:
         clip: the clip that was watched.
-        frame_count: how many frames of it were watched.
         recognition: what the recogniser said, with its evidence.
         answer: what the robot decided to do.
         motion: what the body did; time starts at 0 when the motion starts.
@@ -46,7 +45,6 @@ class Episode:
     """
 
     clip: Clip
-    frame_count: int
     recognition: Recognition
     answer: Answer
     motion: MotionLog
@@ -55,9 +53,14 @@ class Episode:
     provenance: dict[str, Any]
 
     @property
+    def frame_count(self) -> int:
+        """How many frames of the clip were watched."""
+        return self.recognition.watched.frames
+
+    @property
     def watched_s(self) -> float:
         """Length of the watched part of the clip, seconds."""
-        return self.frame_count / self.clip.fps
+        return self.recognition.watched.seconds
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the arrays, as ``episode.json`` keeps it."""

@@ -118,7 +118,7 @@ def imitate(
     timer = Timer({})
     clip = open_clip(video, frames)
     database = database or database_of(clip)
-    recognition, frame_count = _see(clip, database, among, timer, progress)
+    recognition = _see(clip, database, among, timer, progress)
     answer = answer_to(recognition, mirror)
     nao = nao or Nao()
     begun = time.perf_counter()
@@ -132,17 +132,13 @@ def imitate(
         **software(),
     }
     outcome = measure(motion, ACTUATED)
-    return Episode(clip, frame_count, recognition, answer, motion, outcome, timer.seconds, provenance), nao
+    return Episode(clip, recognition, answer, motion, outcome, timer.seconds, provenance), nao
 
 
 def _see(
     clip: Clip, database: Path, among: Iterable[str] | None, timer: Timer, progress: Progress | None
-) -> tuple[Recognition, int]:
-    counted = 0
-
+) -> Recognition:
     def count(done: int, total: int | None) -> None:
-        nonlocal counted
-        counted = done
         if progress is not None:
             progress("Watching", done, total)
 
@@ -152,4 +148,4 @@ def _see(
     except MemoryError:
         raise EpisodeError(f"{clip.source} does not fit in memory; choose a part of it with --frames") from None
     timer.measure("see", begun)
-    return recognition, counted
+    return recognition

@@ -41,7 +41,9 @@ def decision_text(recognition: Recognition, reason: str) -> str:
         head = f"# None of these{nearest}\n\n{recognition.reason}"
     else:
         head = f"# {recognition.label}\n\n{recognition.family} amplitude"
-    distance = f"distance **{recognition.distance:.3f}**, rejected beyond {recognition.threshold:.3f}"
+    distance = ""
+    if recognition.nearest:
+        distance = f"distance **{recognition.distance:.3f}**, rejected beyond {recognition.threshold:.3f}"
     rows = [f"| {n.label} | {n.person} | {n.distance:.3f} |" for n in recognition.neighbours]
     table = "\n".join(["| neighbour | person | distance |", "|---|---|---|", *rows])
     notes = "\n".join(f"- {warning}" for warning in recognition.warnings)
@@ -107,7 +109,7 @@ def record_episode(path: Path, episode: Episode, nao: Nao, progress: Callable[[i
         log_phases(stream, _phases(episode))
         text = decision_text(episode.recognition, episode.answer.reason)
         log_decision(stream, "# Watching …", episode.watched_s, text)
-        log_frames(stream, episode.clip, episode.clip.fps, progress)
+        log_frames(stream, episode.clip.timed(), progress)
         _log_evidence(stream, episode)
         log_body_poses(stream, nao.model, time, motion.body_pose[still_first])
         joint_range = joint_table().select(ACTUATED).range_rad(nao.limits)

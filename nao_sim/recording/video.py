@@ -35,36 +35,37 @@ def _jpeg(image: np.ndarray, scale: float) -> bytes:
 
 def log_frames(
     stream: rr.RecordingStream,
-    frames: Iterable[np.ndarray],
-    fps: float,
+    frames: Iterable[tuple[float, np.ndarray]],
     progress: Callable[[int], None] | None = None,
 ) -> int:
     """Log frames as JPEG pictures, a few at a time, so that a long clip need not fit in memory.
 
     Args:
         stream: an open recording.
-        frames: BGR pictures, uint8, shape (h, w, 3).
-        fps: frames per second; frame i stands at i / fps.
+        frames: time [s] and BGR picture, uint8, shape (h, w, 3), of each.
         progress: called with the number of frames logged so far.
 
     Returns:
         The number of frames logged.
     """
     blobs: list[bytes] = []
+    times: list[float] = []
     first = 0
 
     def send() -> None:
-        log_pictures(stream, np.arange(first, first + len(blobs)) / fps, blobs)
+log_pictures(stream, np.array(times), blobs)
 
     scale = 1.0
-    for frame in frames:
+    for time, frame in frames:
         if first == 0 and not blobs:
             scale = stored_scale(frame.shape[1], frame.shape[0])
         blobs.append(_jpeg(frame, scale))
+        times.append(time)
         if len(blobs) == _CHUNK:
             send()
             first += len(blobs)
             blobs.clear()
+            times.clear()
             if progress is not None:
                 progress(first)
     if blobs:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numpy as np
 
@@ -29,12 +30,12 @@ class Decision:
 
     Attributes:
         label: the gesture, None when rejected.
-        nearest: the gesture that would be the answer, even when rejected.
+        nearest: the gesture that would be the answer, even when rejected; empty where nothing could be compared.
         family: family of ``nearest``.
         rejected: True when no gesture of the vocabulary was seen.
         reason: why it was rejected, empty otherwise.
-        distance: what the threshold is compared with; small is sure.
-        threshold: distance beyond which a gesture is rejected.
+        distance: what the threshold is compared with; small is sure. NaN where nothing could be compared.
+        threshold: distance beyond which a gesture is rejected; NaN likewise.
         votes: label -> share of the votes.
         neighbours: nearest first.
     """
@@ -48,6 +49,11 @@ class Decision:
     threshold: float
     votes: dict[str, float]
     neighbours: tuple[Neighbour, ...]
+
+    @classmethod
+    def without_comparison(cls, reason: str) -> Decision:
+        """A rejection of a clip in which there was nothing to compare."""
+        return cls(None, "", "", True, reason, math.nan, math.nan, {}, ())
 
     def rejected_for(self, reason: str) -> Decision:
         """The same, but rejected whatever the neighbours say."""

@@ -19,7 +19,7 @@ MOVED = 8.0  # grey levels
 ACTIVE_AREA = 0.004  # share of the image that must change for a sample to count as moving
 ENOUGH_ACTIVE = 8  # moving samples after which the search may end …
 ENOUGH_SEEN = 12  # … but not before this one
-LAST_CHANCE = 60  # samples after which the search ends in any case
+LAST_CHANCE = 60  # samples after which the search ends, or begins anew where nothing looks like a person
 NAMES = (
     "template", "rank", "share_reach", "share_body", "density_body", "share_head", "density_head",
     "now_reach", "now_body", "now_density_body", "now_head", "now_density_head",
@@ -32,6 +32,10 @@ class BodyFinder:
 
     def __init__(self) -> None:
         self.body: Body | None = None
+        self._begin()
+
+    def _begin(self) -> None:
+        """Forget what was seen."""
         self._flat: list[np.ndarray] = []
         self._moved: list[np.ndarray] = []
         self._active = 0
@@ -54,8 +58,9 @@ class BodyFinder:
         if number in OBSERVED:
             self._search(sample)
         self._active += cv2.countNonZero(self._moved[-1]) > ACTIVE_AREA * self._moved[-1].size
-        if (self._active >= ENOUGH_ACTIVE and number + 1 >= ENOUGH_SEEN) or number + 1 >= LAST_CHANCE:
-            self.decide()
+        late = number + 1 >= LAST_CHANCE
+        if ((self._active >= ENOUGH_ACTIVE and number + 1 >= ENOUGH_SEEN) or late) and self.decide() is None and late:
+            self._begin()
 
     def _search(self, sample: Sample) -> None:
         self._found.append((len(self._moved) - 1, *self.search(sample.grey)))
@@ -67,14 +72,17 @@ class BodyFinder:
         cells = closer_look(grey, found)
         return moved(found, cells, *fit_weights()[0]), closer_score(cells)
 
-    def decide(self) -> Body:
-        """Choose among the candidates seen so far; the same answer whenever it is called again."""
+    def decide(self) -> Body | None:
+        """Choose among the candidates seen so far; None where no place looks like a person.
+
+        Once there is an answer, it stays the same.
+        """
         if self.body is None:
             if not self._found and self._last is not None:
                 self._search(self._last)
             candidates, table = self.candidates()
             if not candidates:
-                raise ValueError("no sample was observed")
+                return None
             scores = Ranking.load()(table)
             best = int(np.argmax(scores))
             self.body = self._exact(_mean_body(candidates, scores, best))
@@ -98,12 +106,11 @@ class BodyFinder:
         Columns are as in NAMES, then the same relative to the highest of the clip: what counts is to be
         more like a person than the rest of the picture.
         """
-        assert self._last is not None
+        bodies = [body for _, found, _ in self._found for body in found]
+        if self._last is None or not bodies:
+            return [], np.zeros((0, 2 * len(NAMES)))
         height, width = self._last.grey.shape
         scale = self._last.small.shape[1] / width
-        bodies = [body for _, found, _ in self._found for body in found]
-        if not bodies:
-            return [], np.zeros((0, 2 * len(NAMES)))
         numbers = self.searched()
         places = np.array([(b.x, b.y, b.head, b.score) for b in bodies])
         again = np.zeros(len(bodies))

@@ -22,7 +22,8 @@ from recognizer.postures.person.person_in_view import CERTAIN, SHOWN, Person, fi
 from recognizer.postures.photo import as_bgr, read_photo
 from recognizer.postures.thesis import baseline
 from recognizer.postures.types import Image
-from recognizer.recognition import Recognition
+from recognizer.recognition import Recognition, Watched
+from recognizer.video.frame_clock import ASSUMED_FPS
 
 # Distances of less likely guesses count this much more, so that they win only where the likely one is poor.
 SEGMENTATION_COST = {"skin": 1.0, "skin without Gray-World": 1.4, "background": 1.4, "person": 1.0}
@@ -93,6 +94,7 @@ class PhotoRecognizer:
             amplitude=None,
             start=0.0,
             end=0.0,
+            watched=Watched(1, 1 / ASSUMED_FPS),
             method=self.method.name,
             source=source,
             warnings=warnings,

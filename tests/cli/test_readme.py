@@ -9,6 +9,12 @@ from nao_sim.cli.app import COMMANDS
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 README = (CHECKOUT / "README.md").read_text(encoding="utf-8")
+PAGES = [
+    page
+    for folder in (".", "docs", "findings", "tools", "models/nao", "models/person")
+    for page in (CHECKOUT / folder).glob("*.md")
+    if page.name != "CHANGELOG.md"  # which tells of what was
+]
 
 
 def test_every_command_is_listed_and_every_listed_command_exists() -> None:
@@ -17,12 +23,13 @@ def test_every_command_is_listed_and_every_listed_command_exists() -> None:
 
 
 def test_every_file_that_the_documentation_links_to_exists() -> None:
-    for page in [CHECKOUT / "README.md", *CHECKOUT.glob("docs/*.md"), CHECKOUT / "models" / "nao" / "README.md"]:
+    for page in PAGES:
         for link in re.findall(r"\]\((?!https?:|#)([^)#]+)", page.read_text(encoding="utf-8")):
             assert (page.parent / link).exists(), f"{page.name} links to {link}"
 
 
-def test_every_module_that_the_map_of_the_thesis_names_exists() -> None:
-    table = (CHECKOUT / "docs" / "thesis.md").read_text(encoding="utf-8")
-    for path in re.findall(r"`((?:recognizer|nao_sim|models|assets|docs)/[\w/.]*)`", table):
-        assert (CHECKOUT / path).exists(), path
+def test_every_file_of_ours_that_the_documentation_names_exists() -> None:
+    folders = "recognizer|nao_sim|models|assets|docs|tools|tests|benchmarks|examples"
+    for page in PAGES:
+        for path in re.findall(rf"[` ]((?:{folders})/[\w/.]*\w/?)[` ]", page.read_text(encoding="utf-8")):
+            assert (CHECKOUT / path).exists(), f"{page.name} names {path}"

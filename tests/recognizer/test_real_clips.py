@@ -5,18 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
-
-from nao_sim.resources import resource
 from recognizer import Recognizer, open_clip
 
 SIGNS = ["again", "bird", "brother", "help", "milk", "no", "please", "sorry", "student", "thanks", "yes"]
 FELIX = {(6, 44): "bye_right", (48, 86): "bye_two_hands", (114, 124): "bye_two_hands"}
-
-
-@pytest.fixture(scope="module")
-def shipped() -> Recognizer:
-    return Recognizer.load(resource("assets", "databases", "dynamic.parquet"))
 
 
 def test_real_waves_are_named_or_rejected_but_never_taken_for_something_else(

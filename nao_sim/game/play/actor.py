@@ -68,12 +68,15 @@ class ActorPlayer:
             return Deed(IRRELEVANT, str(rng.choice(_UNRELATED)))
         return Deed(IRRELEVANT, _STILL)
 
-    def film(self, stage: Stage, deed: Deed, turn: int, attempt: int, answering: bool) -> Iterator[np.ndarray]:
-        """Yield the BGR frames, (240, 320, 3) uint8, of one performance, 10 a second."""
+    def film(
+        self, stage: Stage, deed: Deed, turn: int, attempt: int, answering: bool
+    ) -> Iterator[tuple[float, np.ndarray]]:
+        """Yield time [s] and BGR frame, (240, 320, 3) uint8, of one performance, 10 a second."""
         rng = self._rng(turn, attempt, 1 + answering)
         acted = perform(deed.label, self.scene.person, rng, 1.0, deed.action, restless=0.0, underway=0.0)
         with one_core():
-            yield from roll(stage, replace(self.scene, performance=acted, label=deed.label))
+            shot = replace(self.scene, performance=acted, label=deed.label)
+            yield from ((number / FPS, frame) for number, frame in enumerate(roll(stage, shot)))
 
     def _rng(self, *use: int) -> np.random.Generator:
         return np.random.default_rng([self.actor.seed, self._place, *use])

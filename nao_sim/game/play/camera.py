@@ -6,7 +6,6 @@ import contextlib
 import queue
 import threading
 import time
-from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 from types import TracebackType
@@ -27,8 +26,8 @@ REST_S = 0.7
 """So long without movement ends a performance."""
 LONGEST_S = 12.0
 ASSUMED_FPS = 25.0
+"""What a camera says of its rate is often wrong; each picture carries the time at which it came."""
 _SILENT_S = 3.0
-_MEASURED_S = 1.0
 _SMALL = (80, 60)
 # Mean grey levels that the fastest hundredth of the picture changes by in a step, above the camera's own noise.
 _MOVES = 14.0
@@ -53,7 +52,6 @@ class CameraPlayer:
         self._who, self._camera, self._timeout_s = who, camera, timeout_s
         self._pictures: queue.Queue[_Picture] = queue.Queue(maxsize=8)
         self._stopped = threading.Event()
-        self._stamps: deque[float] = deque(maxlen=50)
 
     def __enter__(self) -> CameraPlayer:
         """Open the camera.
@@ -71,14 +69,7 @@ class CameraPlayer:
             )
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
-        self._stopped.wait(_MEASURED_S)
         return self
-
-    @property
-    def _fps(self) -> float:
-        """Pictures a second as they come; what cameras say of it is often wrong, and latencies depend on it."""
-        stamps = list(self._stamps)
-        return (len(stamps) - 1) / (stamps[-1] - stamps[0]) if len(stamps) > 2 else ASSUMED_FPS
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -96,9 +87,7 @@ class CameraPlayer:
             if self._pictures.full():
                 with contextlib.suppress(queue.Empty):
                     self._pictures.get_nowait()
-            picture = _Picture(time.monotonic(), frame)
-            self._stamps.append(picture.at)
-            self._pictures.put(picture)
+            self._pictures.put(_Picture(time.monotonic(), frame))
 
     def begin(self) -> None:
         """Nothing to do: the camera sees what happens now."""
@@ -107,10 +96,10 @@ class CameraPlayer:
         """Watch one attempt; see :class:`nao_sim.game.play.people.Player`."""
         from nao_sim.game.play.people import Attempt
 
-        return Attempt(Film(self._frames(), self._fps, f"camera of {self._who}, turn {turn.number}"))
+        return Attempt(Film(self._frames(), ASSUMED_FPS, f"camera of {self._who}, turn {turn.number}"))
 
-    def _frames(self) -> Iterator[np.ndarray]:
-        """Yield frames until the person has moved and rests again, or the time-out or the camera ends it."""
+    def _frames(self) -> Iterator[tuple[float, np.ndarray]]:
+        """Yield frames with their times until the person has moved and rests again, or the time-out or the camera ends it."""
         while not self._pictures.empty():
             self._pictures.get_nowait()
         begun = time.monotonic()
@@ -121,7 +110,7 @@ class CameraPlayer:
                 picture = self._pictures.get(timeout=_SILENT_S)
             except queue.Empty:
                 return
-            yield picture.frame
+            yield picture.at - begun, picture.frame
             small = cv2.cvtColor(cv2.resize(picture.frame, _SMALL, interpolation=cv2.INTER_AREA), cv2.COLOR_BGR2GRAY)
             if before is not None and _changes(before, small):
                 moved = picture.at

@@ -132,7 +132,7 @@ def _film(work: Path, root: Path, shown: Shown) -> dict[str, Any]:
     """Keep a film that is nowhere else; returns where it is."""
     about: dict[str, Any] = {
         "who": shown.who, "start_s": round(shown.start_s, 4), "answering": shown.answering, "attempt": shown.attempt,
-        "fps": shown.watched.fps, "frames": len(shown.watched.pictures),
+        "fps": round(shown.watched.measured_fps, 3), "frames": len(shown.watched.pictures),
     }  # fmt: skip
     if shown.cut is not None:
         return about | {
@@ -145,7 +145,7 @@ def _film(work: Path, root: Path, shown: Shown) -> dict[str, Any]:
 
 def _write_avi(path: Path, shown: Shown) -> None:
     width, height = shown.watched.size
-    with AviWriter(path, width, height, shown.watched.fps, quality=85) as writer:
+    with AviWriter(path, width, height, shown.watched.measured_fps, quality=85) as writer:
         for jpeg in shown.watched.pictures:
             writer.write_jpeg(jpeg)
 

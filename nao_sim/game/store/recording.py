@@ -67,9 +67,8 @@ def record_piece(path: Path, name: str, identity: str, nao: Nao | None, piece: T
 
 def _log_film(stream: rr.RecordingStream, shown: Shown) -> None:
     watched = shown.watched
-    times = np.arange(len(watched.pictures)) / watched.fps
     if watched.pictures:
-        log_pictures(stream, shown.start_s + times, watched.pictures)
+        log_pictures(stream, shown.start_s + np.array(watched.times), watched.pictures)
     evidence = None if watched.recognition is None else watched.recognition.evidence
     if evidence is not None:
         moments = shown.start_s + np.array([sample.time for sample in evidence.samples])

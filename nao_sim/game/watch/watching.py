@@ -13,7 +13,7 @@ import numpy as np
 from nao_sim.game.watch.movement import movement
 from nao_sim.gestures import vocabulary
 from nao_sim.resources import resource
-from recognizer import Clip, Recognition, Recognizer, RecognizerError
+from recognizer import Clip, Recognition, Recognizer, RecognizerError, RecognizerStream
 from recognizer.postures import PhotoRecognizer
 
 BLIND_GREY = 6.0
@@ -26,21 +26,21 @@ class Film:
     """Frames to be watched.
 
     Attributes:
-        frames: BGR pictures, one by one.
-        fps: frames a second.
+        frames: BGR pictures, one by one, each with its time in seconds.
+        fps: frames a second, as told.
         source: a name for messages.
-        still: the file of a photo of a hand posture; None: it moves.
+        clip: the file that it is, which can be looked at again; None: it is seen once.
     """
 
-    frames: Iterable[np.ndarray]
+    frames: Iterable[tuple[float, np.ndarray]]
     fps: float
     source: str
-    still: str | None = None
+    clip: Clip | None = None
 
     @classmethod
     def of(cls, clip: Clip) -> Film:
         """Make a film of a file."""
-        return cls(clip, clip.fps, clip.source, clip.source if clip.still else None)
+        return cls(clip.timed(), clip.fps, clip.source, clip)
 
 
 @dataclass
@@ -54,6 +54,7 @@ class Watched:
         fps: of the film.
         blind: nothing could be seen on it.
         ended: ``time.perf_counter()`` when the last frame was there.
+        times: seconds of each frame, from the first.
         size: width and height of the frames, px.
     """
 
@@ -63,15 +64,22 @@ class Watched:
     fps: float = 25.0
     blind: bool = False
     ended: float = 0.0
+    times: list[float] = field(default_factory=list)
     size: tuple[int, int] = (0, 0)
 
     @property
     def seconds(self) -> float:
         """Length of the film."""
-        return len(self.pictures) / self.fps
+        return self.times[-1] + 1 / self.fps if self.times else 0.0
 
-    def keep(self, frame: np.ndarray) -> None:
+    @property
+    def measured_fps(self) -> float:
+        """Frames a second as they came."""
+        return (len(self.times) - 1) / self.times[-1] if len(self.times) > 1 and self.times[-1] > 0 else self.fps
+
+    def keep(self, seconds: float, frame: np.ndarray) -> None:
         """Add a frame to the pictures."""
+        self.times.append(seconds)
         self.size = (frame.shape[1], frame.shape[0])
         self.pictures.append(cv2.imencode(".jpg", frame, _JPEG)[1].tobytes())
 
@@ -112,30 +120,37 @@ class Watcher:
     def watch(self, film: Film) -> Watched:
         """Watch a film to its end; what cannot be recognised is said in the answer, not raised."""
         seen = Watched(fps=film.fps)
-        if film.still is not None:
-            return self._photo(film, seen)
+        if film.clip is not None and film.clip.still:
+            return self._photo(film, film.clip, seen)
         stream = self.recognizer.stream(film.fps, film.source)
         spread = []
         try:
-            for frame in film.frames:
-                stream.push(frame)
+            for seconds, frame in film.frames:
+                stream.push(frame, seconds)
                 spread.append(float(frame[::8, ::8].std()))
                 # JPEG of a frame takes a millisecond or two, which a camera leaves between its pictures.
-                seen.keep(frame)
+                seen.keep(seconds, frame)
             seen.ended = time.perf_counter()
-            seen.recognition = stream.finish(self.among)
+            seen.recognition = self._answer(stream, film)
         except RecognizerError as error:
             seen.ended = seen.ended or time.perf_counter()
             seen.problem = str(error)
         seen.blind = not spread or float(np.median(spread)) < BLIND_GREY
         return seen
 
-    def _photo(self, film: Film, seen: Watched) -> Watched:
-        for frame in film.frames:
-            seen.keep(frame)
+    def _answer(self, stream: RecognizerStream, film: Film) -> Recognition:
+        """Answer at once; a file that shows nothing known as a whole, or is long, is searched for its gesture."""
+        answer = stream.finish(self.among)
+        if film.clip is None or (stream.track.whole and not answer.rejected):
+            return answer
+        return self.recognizer.recognize(film.clip, self.among)
+
+    def _photo(self, film: Film, photo: Clip, seen: Watched) -> Watched:
+        for seconds, frame in film.frames:
+            seen.keep(seconds, frame)
         seen.ended = time.perf_counter()
         try:
-            seen.recognition = self._photos.recognize(str(film.still), self._postures)
+            seen.recognition = self._photos.recognize(photo.source, self._postures)
         except RecognizerError as error:
             seen.problem = str(error)
         return seen

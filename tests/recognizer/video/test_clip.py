@@ -112,7 +112,7 @@ def test_tiny_frames_are_refused_and_huge_ones_scaled(tmp_path: Path) -> None:
     assert next(iter(clip)).shape == (360, MAX_SIDE, 3)
 
 
-@pytest.mark.parametrize("fps", [0.0, -5.0, 250.0, 1e9, math.nan, math.inf])
+@pytest.mark.parametrize("fps", [0.0, -5.0, 90000.0, 1e9, math.nan, math.inf])
 def test_impossible_frame_rates_are_replaced_and_said(fps: float) -> None:
     rate, warnings = _plausible_fps(fps)
     assert rate == 25
