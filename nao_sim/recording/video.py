@@ -53,7 +53,7 @@ def log_frames(
     first = 0
 
     def send() -> None:
-log_pictures(stream, np.array(times), blobs)
+        log_pictures(stream, np.array(times), blobs)
 
     scale = 1.0
     for time, frame in frames:

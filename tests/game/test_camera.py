@@ -104,7 +104,7 @@ def test_a_movement_is_watched_until_the_person_rests(tmp_path, camera):
     assert (turn.seen, turn.auto_score) == ("right_arm_up", 1)
     assert 0 < turn.latency_s < 3.5
     # The server names no rate, for which OpenCV says 25; what comes is measured.
-    assert open_clip(tmp_path / "out" / turn.clip).fps == pytest.approx(FPS, rel=0.2)
+    assert open_clip(tmp_path / "out" / turn.clip).fps < 20
     assert turn.movement_end_s - turn.movement_start_s < 4
 
 

@@ -99,7 +99,7 @@ class CameraPlayer:
         return Attempt(Film(self._frames(), ASSUMED_FPS, f"camera of {self._who}, turn {turn.number}"))
 
     def _frames(self) -> Iterator[tuple[float, np.ndarray]]:
-        """Yield frames with their times until the person has moved and rests again, or the time-out or the camera ends it."""
+        """Yield frames and their times until the person has moved and rests, or the time-out or the camera ends it."""
         while not self._pictures.empty():
             self._pictures.get_nowait()
         begun = time.monotonic()

@@ -259,9 +259,11 @@ def _times(table: Table, imitator: Participant, attempt: Attempt, shown: Shown, 
     if moved is None:
         still = shown.watched.recognition is not None and shown.watched.recognition.evidence is not None
         if still and attempt.starts_at_model_end:
+            end = shown.end_s
             if not table.session.live and attempt.cut is None:  # an actor is filmed for less than they are waited for
-                table.clock.until(shown.start_s + table.session.timeout_s)
-            _censored(record, shown.start_s, table.clock.now)
+                end = shown.start_s + table.session.timeout_s
+                table.clock.until(end)
+            _censored(record, shown.start_s, end)
         return
     start, end = (round(shown.start_s + moment, 4) for moment in moved)
     record.log.add("movement", start, end, who=imitator.id, label=_label(shown.watched))
