@@ -134,6 +134,7 @@ def _tell(console: Console, session: Path, as_json: bool) -> None:
     from nao_sim.game.store import SessionFolder
 
     folder = SessionFolder(session)
+    folder.check_begun()
     with folder.claimed():
         tables = folder.write_tables()
     panel = panel_of(tables.turns, tables.ratings, tables.sessions[0].scale)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -54,7 +55,7 @@ def act(
     """
     if gesture.walk is not None:
         return _walk(nao, gesture, speed, amplitude, repetitions, progress)
-    prepared = prepare(gesture, _setpoint(nao), speed, amplitude, repetitions, nao.limits)
+    prepared = prepare(gesture, setpoint_of(nao), speed, amplitude, repetitions, nao.limits)
     check(prepared.trajectory, nao.limits)
     return Performance(prepared.trajectory, prepared.changes, perform(nao, prepared.trajectory, progress=progress))
 
@@ -66,7 +67,8 @@ def motion_of(gesture: Gesture) -> Trajectory | WalkPlan:
     return plan_walk(gesture.walk.x, gesture.walk.y, gesture.walk.turn)
 
 
-def _setpoint(nao: Nao) -> dict[str, float]:
+def setpoint_of(nao: Nao) -> dict[str, float]:
+    """Return what the motors are told now, by joint, rad (hands: open fraction)."""
     return dict(zip(ACTUATED, nao.setpoint.tolist(), strict=True))
 
 
@@ -84,14 +86,20 @@ def _walk(
     return Performance(Trajectory(log.time, log.targets), [], log)
 
 
+def at_home(setpoint: Mapping[str, float]) -> bool:
+    """Whether every joint is told to be where it is in StandInit, within a degree or so."""
+    home = posture(REST)
+    return all(abs(value - home[name]) < _AT_HOME_RAD for name, value in setpoint.items())
+
+
 def come_home(nao: Nao) -> MotionLog | None:
     """Bring every joint to StandInit; None if they are there."""
     home = posture(REST)
     angles = {name: home[name] for name in ACTUATED if not any(part in name for part in ("Hip", "Knee", "Ankle"))}
-    if all(abs(value - home[name]) < _AT_HOME_RAD for name, value in _setpoint(nao).items()):
+    if at_home(setpoint_of(nao)):
         return None
     homing = Gesture("home", None, "own", "linear", "none", "home", "home", (KeyFrame(1.0, angles),))
-    return perform(nao, prepare(homing, _setpoint(nao), limits=nao.limits).trajectory)
+    return perform(nao, prepare(homing, setpoint_of(nao), limits=nao.limits).trajectory)
 
 
 def _after(first: MotionLog, then: MotionLog) -> MotionLog:

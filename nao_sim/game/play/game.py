@@ -67,7 +67,9 @@ def play(
         KeyboardInterrupt: Ctrl-C, where an end was agreed; everything is stored.
     """
     folder = SessionFolder(Path(out))
-    if not resume:
+    if resume:
+        folder.check_begun()
+    else:
         check_new(folder.path)
     with folder.claimed(), ExitStack() as stack:
         if resume:

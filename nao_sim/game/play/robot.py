@@ -12,7 +12,7 @@ from nao_sim.episodes.imitate import gesture_of
 from nao_sim.game.play.clock import Clock
 from nao_sim.game.store.turn_record import Done
 from nao_sim.gestures import Prepared, find_gesture, prepare
-from nao_sim.gestures.act import come_home
+from nao_sim.gestures.act import at_home, come_home, setpoint_of
 from nao_sim.motion import Trajectory, perform
 from nao_sim.robot import Nao
 
@@ -45,14 +45,13 @@ class RobotPlayer:
                 progress("Rehearsing", number, len(wanted))
 
     def _prepared(self, answer: Answer) -> Prepared:
+        gesture = gesture_of(answer)
+        if gesture is None:
+            return Prepared(Trajectory(np.zeros(1), self.nao.setpoint[None]), [])
         if answer not in self._ready:
-            gesture = gesture_of(answer)
-            if gesture is None:
-                still = Trajectory(np.zeros(1), self.nao.setpoint[None])
-                self._ready[answer] = Prepared(still, [])
-            else:
-                self._ready[answer] = prepare(gesture, limits=self.nao.limits)
-        return self._ready[answer]
+            self._ready[answer] = prepare(gesture, limits=self.nao.limits)
+        start = setpoint_of(self.nao)
+        return self._ready[answer] if at_home(start) else prepare(gesture, start, limits=self.nao.limits)
 
     def stand(self) -> None:
         """Put the robot upright where it belongs, its weight on its feet."""
@@ -61,7 +60,10 @@ class RobotPlayer:
         self._place = self.nao.torso_pose[:2]
 
     def perform(self, answer: Answer) -> Done:
-        """Make a gesture from standing; a robot that has fallen or strayed is stood up first."""
+        """Make a gesture from where the robot is; only from standing is it ready at once.
+
+        A robot that has fallen or strayed is stood up first.
+        """
         if self.nao.fallen or np.hypot(*(self.nao.torso_pose[:2] - self._place)) > STRAYED_M:
             self.stand()
         trajectory = self._prepared(answer).trajectory

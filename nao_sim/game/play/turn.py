@@ -61,6 +61,9 @@ def play_turn(table: Table, turn: PlannedTurn, record: TurnRecord) -> None:
     record.states.append(("3_doing", table.clock.now, "model"))
     if model.role == "child":
         table.voice.speak(record.log, "instruction", "own_turn", table.speaker)
+    if table.robot is not None:
+        home = table.robot.come_home()
+        record.motions += [] if home is None else [home]
     seen = _model(table, turn, model, record)
     if isinstance(imitator.turns, Robot):
         # What is written down of the model takes a tenth of a second that the robot's answer does not wait for.
@@ -179,20 +182,17 @@ def _robot_answers(table: Table, turn: PlannedTurn, seen: Watched | None, record
     if done.log.fallen:
         _fell(table, record)
     if target is not None and not record.excluded:
-        _propose(table, target, answer.gesture, record)
-    home = table.robot.come_home()
-    if home is not None:
-        record.motions.append(home)
+        _propose(table, target, answer.gesture, record, done.start_s)
 
 
-def _propose(table: Table, target: str, seen: str | None, record: TurnRecord) -> bool:
-    """Write the automatic proposal down; returns whether it counts as answered."""
+def _propose(table: Table, target: str, seen: str | None, record: TurnRecord, at: float | None = None) -> bool:
+    """Write the automatic proposal down, for a moment or for now; returns whether it counts as answered."""
     scoring = table.session.scoring
     made = propose(target, seen, scoring)
     record.row |= {
         "auto_score": made.score, "auto_rule": scoring.rule, "auto_scale": scoring.scale, "side": made.side,
     }  # fmt: skip
-    record.states.append(("5_proposed", table.clock.now, f"score {made.score}"))
+    record.states.append(("5_proposed", table.clock.now if at is None else at, f"score {made.score}"))
     return made.score >= scoring.success_at
 
 

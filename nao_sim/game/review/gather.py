@@ -95,10 +95,13 @@ def _write_scores(
 
 
 def _spans(events: Iterable[Event]) -> dict[str, tuple[float, float]]:
-    """When each turn's first event began and its last one ended, seconds of the session."""
-    spans: dict[str, tuple[float, float]] = {}
+    """When each turn began, and when the next one did or the last one's last event ended, seconds of the session."""
+    starts: dict[str, float] = {}
+    last = 0.0
     for event in events:
         if event.turn_id is not None:
-            start, end = spans.get(event.turn_id, (event.start_s, event.start_s))
-            spans[event.turn_id] = (min(start, event.start_s), max(end, event.end_s or event.start_s))
-    return spans
+            starts[event.turn_id] = min(event.start_s, starts.get(event.turn_id, event.start_s))
+            last = max(last, event.end_s or event.start_s)
+    order = sorted(starts, key=lambda turn: starts[turn])
+    ends = [starts[turn] for turn in order[1:]] + [last]
+    return {turn: (starts[turn], end) for turn, end in zip(order, ends, strict=True)}

@@ -85,6 +85,15 @@ class SessionFolder:
         """Whether a session has begun here."""
         return bool(journal.read(self.path / JOURNAL))
 
+    def check_begun(self) -> None:
+        """Refuse a folder in which no session has begun.
+
+        Raises:
+            GameError: no session stands here.
+        """
+        if not self.begun:
+            raise GameError(f"{self.path} holds no session; begin one with nao-sim game SESSION.toml --out {self.path}")
+
     def check_empty(self) -> None:
         """Refuse a folder in which a session has begun.
 
@@ -120,9 +129,9 @@ class SessionFolder:
         Raises:
             GameError: no session has begun here.
         """
+        self.check_begun()
         played = self.played()
-        if played.files is None:
-            raise GameError(f"{self.path} holds no session; begin one with nao-sim game SESSION.toml --out {self.path}")
+        assert played.files is not None
         return replace(read_session(self.path / AGREED, played.files), among=played.among)
 
     def phase_over(self, phase: str, events: list[Event], clock_s: float) -> None:
@@ -180,14 +189,9 @@ class SessionFolder:
         journal.append(self.path / RATINGS / f"{rating.rater}.jsonl", asdict(rating))
 
     def write_tables(self) -> Tables:
-        """Make the tables anew from the journal and the ratings.
-
-        Raises:
-            GameError: no session has begun here.
-        """
+        """Make the tables anew from the journal and the ratings of a session that has begun."""
         played = self.played()
-        if played.session is None:
-            raise GameError(f"{self.path} holds no session; begin one with nao-sim game SESSION.toml --out {self.path}")
+        assert played.session is not None, "see check_begun"
         row = replace(played.session, duration_s=played.clock_s) if "closing" in played.phases else played.session
         events = (*played.events, *_turn_phases(played))
         tables = Tables((row,), tuple(played.turns), self.ratings(), events)
