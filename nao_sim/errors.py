@@ -7,7 +7,9 @@
     ├── RobotError           (nao_sim.robot) unknown joint, angle out of range, unstable simulation
     ├── GestureError         (nao_sim.gestures) unknown gesture, malformed gesture file
     ├── FilmError            (nao_sim.people) a data set that cannot be made or read
-    └── EpisodeError         (nao_sim.episodes) an episode that cannot be run or written
+    ├── EpisodeError         (nao_sim.episodes) an episode that cannot be run or written
+    ├── GameError            (nao_sim.game) a session, turn table or study that cannot be played, scored or reported
+    └── ExchangeError        (nao_sim.exchange) another tool's file that cannot be read or written
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
-"""Take a picture of a recording with Rerun's headless viewer.
+"""Take a picture of an episode or session with Rerun's headless viewer.
 
-    python tools/screenshot.py demo/episode.rrd 5.0 docs/episode.png
+    python tools/screenshot.py demo 5.0 docs/episode.png
+    python tools/screenshot.py C07-1 44.0 docs/session.png
 
 Needs a Vulkan driver (on Debian or Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1) and ``rerun`` on the PATH.
 The viewer's remote control is experimental in Rerun 0.41, so it stays out of the package.
@@ -9,22 +10,26 @@ The viewer's remote control is experimental in Rerun 0.41, so it stays out of th
 from __future__ import annotations
 
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 import cv2
 from rerun.experimental import ViewerClient
 
+from nao_sim.game.review.gather import recordings
+
 PORT = 9899
-LOAD_S = 4.0
+LOAD_S = 8.0
 WIDTH_PX = 1280
 
 
-def main(recording: str, seconds: str, picture: str) -> None:
-    """Open a recording, move to a time, save what the viewer shows, and print what the views complain about."""
+def main(path: str, seconds: str, picture: str) -> None:
+    """Open what ``nao-sim review`` would, move to a time, save what the viewer shows, and print its complaints."""
     viewer = ViewerClient.spawn(headless=True, port=PORT)
-    viewer.open(recording)
-    time.sleep(LOAD_S)
+    with tempfile.TemporaryDirectory() as work:
+        viewer.open([str(file) for file in recordings([Path(path)], Path(work))])
+        time.sleep(LOAD_S)
     viewer.set_time("time", duration=float(seconds))
     time.sleep(LOAD_S / 2)
     viewer.save_screenshot(picture)

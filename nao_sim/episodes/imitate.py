@@ -56,8 +56,13 @@ def answer_to(recognition: Recognition, mirror: bool = False) -> Answer:
     """
     if recognition.rejected or recognition.label is None:
         return Answer(None, False, recognition.reason or "no known gesture")
+    return answer_to_label(recognition.label, mirror)
+
+
+def answer_to_label(label: str, mirror: bool = False) -> Answer:
+    """Decide what the robot does about a known gesture; ``mirror`` as in :func:`answer_to`."""
     gestures = library()
-    name = gestures[recognition.label].mirror if mirror and recognition.label in gestures else recognition.label
+    name = gestures[label].mirror if mirror and label in gestures else label
     if name not in gestures:
         return Answer(None, mirror, f"the gesture library has no '{name}'")
     return Answer(name, mirror)

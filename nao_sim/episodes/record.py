@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 _SHOWN_JOINTS = 6
 
 
-def _decision_text(recognition: Recognition, reason: str) -> str:
+def decision_text(recognition: Recognition, reason: str) -> str:
     """The decision as Markdown: the answer, why, and the nearest neighbours."""
     if recognition.rejected:
         nearest = f" (nearest: {recognition.nearest})" if recognition.nearest else ""
@@ -123,7 +123,7 @@ def record_episode(path: Path, episode: Episode, nao: Nao, progress: Callable[[i
         send_properties(stream, "episode", _properties(episode))
         log_shells(stream, nao.model)
         log_phases(stream, _phases(episode))
-        text = _decision_text(episode.recognition, episode.answer.reason)
+        text = decision_text(episode.recognition, episode.answer.reason)
         log_decision(stream, "# Watching …", episode.watched_s, text)
         log_frames(stream, episode.clip.timed(), progress)
         _log_evidence(stream, episode)

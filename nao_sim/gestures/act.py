@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -74,7 +75,7 @@ def _act(
     """Perform a gesture; the robot stands."""
     if gesture.walk is not None:
         return _walk(nao, gesture, speed, amplitude, repetitions, progress)
-    prepared = prepare(gesture, _setpoint(nao), speed, amplitude, repetitions, nao.limits)
+    prepared = prepare(gesture, setpoint_of(nao), speed, amplitude, repetitions, nao.limits)
     check(prepared.trajectory, nao.limits)
     return Performance(prepared.trajectory, prepared.changes, perform(nao, prepared.trajectory, progress=progress))
 
@@ -86,7 +87,8 @@ def motion_of(gesture: Gesture, limits: str = "thesis") -> Trajectory | WalkPlan
     return plan_walk(gesture.walk.x, gesture.walk.y, gesture.walk.turn)
 
 
-def _setpoint(nao: Nao) -> dict[str, float]:
+def setpoint_of(nao: Nao) -> dict[str, float]:
+    """Return what the motors are told now, by joint, rad (hands: open fraction)."""
     return dict(zip(ACTUATED, nao.setpoint.tolist(), strict=True))
 
 
@@ -96,7 +98,7 @@ def _walk(
     """Walk, after coming home if the last gesture left the robot elsewhere; the log has both."""
     if speed != 1.0 or repetitions not in (None, 1) or gesture.walk is None:
         raise GestureError(f"'{gesture.name}' is a walk and keeps its own pace; leave speed and repetitions out")
-    before = _come_home(nao)
+    before = come_home(nao)
     goal = gesture.walk
     log = walk(nao, amplitude * goal.x, amplitude * goal.y, amplitude * goal.turn, progress=progress)
     if before is not None:
@@ -104,14 +106,20 @@ def _walk(
     return Performance(Trajectory(log.time, log.targets), [], log)
 
 
-def _come_home(nao: Nao) -> MotionLog | None:
+def at_home(setpoint: Mapping[str, float]) -> bool:
+    """Whether every joint is told to be where it is in StandInit, within a degree or so."""
+    home = posture(REST)
+    return all(abs(value - home[name]) < _AT_HOME_RAD for name, value in setpoint.items())
+
+
+def come_home(nao: Nao) -> MotionLog | None:
     """Bring every joint to StandInit; None if they are there."""
     home = posture(REST)
     angles = {name: home[name] for name in ACTUATED if not any(part in name for part in ("Hip", "Knee", "Ankle"))}
-    if all(abs(value - home[name]) < _AT_HOME_RAD for name, value in _setpoint(nao).items()):
+    if at_home(setpoint_of(nao)):
         return None
     homing = Gesture("home", None, "own", "linear", "none", "home", "home", (KeyFrame(1.0, angles),))
-    return perform(nao, prepare(homing, _setpoint(nao), limits=nao.limits).trajectory)
+    return perform(nao, prepare(homing, setpoint_of(nao), limits=nao.limits).trajectory)
 
 
 def _after(first: MotionLog, then: MotionLog) -> MotionLog:

@@ -30,7 +30,21 @@ def _joint_view(name: str) -> rrb.TimeSeriesView:
     )
 
 
-def _joint_tabs(names: Sequence[str], moving: Sequence[str]) -> rrb.Tabs:
+def robot_view() -> rrb.Spatial3DView:
+    """The robot from its front, a little aside."""
+    import rerun.blueprint as rrb
+
+    return rrb.Spatial3DView(
+        origin="world",
+        name="NAO",
+        eye_controls=rrb.EyeControls3D(position=(1.15, 0.25, 0.55), look_target=(0.0, 0.0, 0.30), eye_up=(0, 0, 1)),
+        line_grid=rrb.LineGrid3D(spacing=0.1),
+        background=[236, 238, 242],
+    )
+
+
+def joint_tabs(names: Sequence[str], moving: Sequence[str]) -> rrb.Tabs:
+    """A tab of those that move, then a tab a limb, torques and balance; arguments as :func:`layout`."""
     import rerun.blueprint as rrb
 
     tabs: list[rrb.View | rrb.Container] = []
@@ -58,13 +72,6 @@ def layout(names: Sequence[str], moving: Sequence[str]) -> rrb.Blueprint:
     """
     import rerun.blueprint as rrb
 
-    robot = rrb.Spatial3DView(
-        origin="world",
-        name="NAO",
-        eye_controls=rrb.EyeControls3D(position=(1.15, 0.25, 0.55), look_target=(0.0, 0.0, 0.30), eye_up=(0, 0, 1)),
-        line_grid=rrb.LineGrid3D(spacing=0.1),
-        background=[236, 238, 242],
-    )
     evidence = rrb.Tabs(
         rrb.Spatial2DView(origin=VIDEO, name="The person, and what moved"),
         rrb.Spatial2DView(origin="evidence/first_key_frame", name="Key frame 1"),
@@ -76,8 +83,8 @@ def layout(names: Sequence[str], moving: Sequence[str]) -> rrb.Blueprint:
         rrb.Vertical(
             rrb.Horizontal(
                 rrb.Vertical(evidence, rrb.TextDocumentView(origin="decision", name="Decision"), row_shares=[3, 2]),
-                robot,
-                _joint_tabs(names, moving),
+                robot_view(),
+                joint_tabs(names, moving),
                 column_shares=[3, 4, 4],
             ),
             rrb.StateTimelineView(origin="phase", name="Phases"),

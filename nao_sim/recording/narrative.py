@@ -37,8 +37,13 @@ def log_phases(stream: rr.RecordingStream, phases: Sequence[tuple[float, str]]) 
 
 def log_decision(stream: rr.RecordingStream, before: str, decided_at: float, decision: str) -> None:
     """Log the text panel: what is known before the decision, and the decision itself (both Markdown)."""
+    for t, text in ((0.0, before), (decided_at, decision)):
+        log_text(stream, t, text)
+
+
+def log_text(stream: rr.RecordingStream, t: float, text: str) -> None:
+    """Log what the text panel says from a moment [s] on, Markdown."""
     import rerun as rr
 
-    for t, text in ((0.0, before), (decided_at, decision)):
-        with moment(stream, t):
-            stream.log("decision", rr.TextDocument(text, media_type=rr.MediaType.MARKDOWN))
+    with moment(stream, t):
+        stream.log("decision", rr.TextDocument(text, media_type=rr.MediaType.MARKDOWN))

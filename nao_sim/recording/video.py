@@ -48,15 +48,12 @@ def log_frames(
     Returns:
         The number of frames logged.
     """
-    import rerun as rr
-
     blobs: list[bytes] = []
     times: list[float] = []
     first = 0
 
     def send() -> None:
-        columns = rr.EncodedImage.columns(blob=blobs, media_type=["image/jpeg"] * len(blobs))
-        stream.send_columns(f"{VIDEO}/frame", indexes=column(times), columns=columns)
+        log_pictures(stream, np.array(times), blobs)
 
     scale = 1.0
     for time, frame in frames:
@@ -76,6 +73,22 @@ def log_frames(
     if progress is not None:
         progress(first + len(blobs))
     return first + len(blobs)
+
+
+def log_pictures(stream: rr.RecordingStream, times: np.ndarray, jpegs: Sequence[bytes]) -> None:
+    """Log frames that are JPEG already; times are seconds on the timeline, shape (n,)."""
+    import rerun as rr
+
+    columns = rr.EncodedImage.columns(blob=list(jpegs), media_type=["image/jpeg"] * len(jpegs))
+    stream.send_columns(f"{VIDEO}/frame", indexes=column(times), columns=columns)
+
+
+def log_no_picture(stream: rr.RecordingStream, t: float) -> None:
+    """Take the last picture and what is drawn over it away at a moment [s]."""
+    import rerun as rr
+
+    with moment(stream, t):
+        stream.log(VIDEO, rr.Clear(recursive=True))
 
 
 def log_boxes(stream: rr.RecordingStream, time: np.ndarray, boxes: Sequence[np.ndarray]) -> None:

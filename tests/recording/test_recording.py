@@ -63,7 +63,7 @@ def rrd(nao: Nao, motion: dict[str, np.ndarray], tmp_path_factory: pytest.TempPa
         log_balance(stream, TIME, motion["pose"][:, 1], np.ones((len(TIME), 8)))
         log_phases(stream, [(0.0, "watch"), (0.5, "imitate"), (1.0, "end")])
         log_decision(stream, "watching", 0.5, "**bye_right**")
-        log_frames(stream, (np.full((240, 320, 3), i, np.uint8) for i in range(70)), fps=70.0)
+        log_frames(stream, ((i / 70, np.full((240, 320, 3), i, np.uint8)) for i in range(70)))
     return path
 
 
@@ -131,7 +131,7 @@ def test_large_frames_are_stored_smaller(tmp_path: Path) -> None:
 
     path = tmp_path / "large.rrd"
     with recording(path, "large", "large-1", layout(ACTUATED, [])) as stream:
-        log_frames(stream, [np.zeros((2160, 3840, 3), np.uint8)], fps=25.0)
+        log_frames(stream, [(0.0, np.zeros((2160, 3840, 3), np.uint8))])
     _, blobs = column(path, "/video/frame", "EncodedImage:blob")
     jpeg = np.array(blobs.to_pylist()[0][0], dtype=np.uint8)
     assert max(cv2.imdecode(jpeg, cv2.IMREAD_COLOR).shape) == LONGEST_SIDE_PX
@@ -145,17 +145,17 @@ def test_a_full_disk_is_one_error_and_leaves_nothing(tmp_path: Path) -> None:
         pytest.raises(RecordingError, match=r"full\.rrd could not be written"),
         recording(path, "x", "x", layout((), ())) as s,
     ):
-        log_frames(s, (np.zeros((100, 100, 3), np.uint8) for _ in range(100)), fps=25.0)
+        log_frames(s, ((i / 25, np.zeros((100, 100, 3), np.uint8)) for i in range(100)))
     assert list(tmp_path.iterdir()) == []
 
 
 def test_an_error_while_recording_leaves_nothing(tmp_path: Path) -> None:
-    def broken() -> Iterator[np.ndarray]:
-        yield np.zeros((10, 10, 3), np.uint8)
+    def broken() -> Iterator[tuple[float, np.ndarray]]:
+        yield 0.0, np.zeros((10, 10, 3), np.uint8)
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt), recording(tmp_path / "cut.rrd", "x", "x", layout((), ())) as stream:
-        log_frames(stream, broken(), fps=25.0)
+        log_frames(stream, broken())
     assert list(tmp_path.iterdir()) == []
 
 

@@ -56,7 +56,11 @@ class AviWriter:
         done, jpeg = cv2.imencode(".jpg", frame, self._encoding)
         if not done:
             raise FilmError(f"a frame of {self._path} cannot be encoded; check its size and type")
-        chunk = _chunk(b"00dc", jpeg.tobytes())
+        self.write_jpeg(jpeg.tobytes())
+
+    def write_jpeg(self, jpeg: bytes) -> None:
+        """Append one frame that is a JPEG file already, of the film's size."""
+        chunk = _chunk(b"00dc", jpeg)
         self._index.append((self._at, len(jpeg)))
         self._at += len(chunk)
         self._file.write(chunk)
