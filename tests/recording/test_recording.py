@@ -169,7 +169,7 @@ def test_a_disk_that_fills_up_ends_in_an_error_and_never_waits(tmp_path: Path, c
         pytest.raises(RecordingError, match=r"full\.rrd could not be written \(No space left on device\)"),
         recording(path, "x", "x", layout((), ())) as stream,
     ):
-        log_frames(stream, (noise for _ in range(count)), fps=25.0)
+        log_frames(stream, ((n / 25, noise) for n in range(count)))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -179,7 +179,7 @@ def test_a_picture_and_what_is_drawn_on_it_share_their_nanosecond(tmp_path: Path
     path = tmp_path / "together.rrd"
     moments = (first + np.arange(64)) / fps
     with recording(path, "x", "x", layout((), ())) as stream:
-        log_frames(stream, (np.zeros((8, 8, 3), np.uint8) for _ in range(first % 7 + 64)), fps=fps)
+        log_frames(stream, ((n / fps, np.zeros((8, 8, 3), np.uint8)) for n in range(first % 7 + 64)))
         begun = np.arange(64) / fps
         log_boxes(stream, begun, [np.zeros((1, 4))] * 64)
         log_centroid_path(stream, begun, np.zeros((64, 2)))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from nao_sim.game.store.lanes import STORY
 from nao_sim.recording.layout import joint_tabs, robot_view
-from nao_sim.recording.stream import TIMELINE
+from nao_sim.recording.moments import TIMELINE
 from nao_sim.recording.video import VIDEO
 from nao_sim.robot import ACTUATED
 
