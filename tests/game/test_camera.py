@@ -67,7 +67,7 @@ def _pictures(rest_s: float, clip: str | None) -> list[bytes]:
     return [cv2.imencode(".jpg", frame)[1].tobytes() for frame in shown]
 
 
-def _session(path: Path, address: str) -> Path:
+def _session(path: Path, address: str, timeout_s: int = 3) -> Path:
     path.write_text(
         f"""
         [study]
@@ -76,7 +76,7 @@ def _session(path: Path, address: str) -> Path:
         [game]
         gestures = ["right_arm_up"]
         turns = 1
-        timeout_s = 3
+        timeout_s = {timeout_s}
         [prompts]
         highest = 0
         [[participant]]
@@ -97,12 +97,12 @@ def _session(path: Path, address: str) -> Path:
 @pytest.mark.slow
 def test_a_movement_is_watched_until_the_person_rests(tmp_path, camera):
     address, handler = camera
-    handler.pictures = _pictures(3.0, "right_arm_up")
-    tables = play(read_session(_session(tmp_path / "s.toml", address)), tmp_path / "out")
+    handler.pictures = _pictures(6.0, "right_arm_up")  # however slowly this machine begins the turn
+    tables = play(read_session(_session(tmp_path / "s.toml", address, timeout_s=10)), tmp_path / "out")
     (turn,) = tables.turns
     assert turn.excluded is None
     assert (turn.seen, turn.auto_score) == ("right_arm_up", 1)
-    assert 0 < turn.latency_s < 3.5
+    assert 0 < turn.latency_s < 10.5
     # The server names no rate, for which OpenCV says 25; what comes is measured.
     assert open_clip(tmp_path / "out" / turn.clip).fps < 20
     assert turn.movement_end_s - turn.movement_start_s < 4
